@@ -1,0 +1,85 @@
+//! `afterglow compare`: how far apart two pictures are.
+
+use std::path::{Path, PathBuf};
+
+use afterglow_metrics::{Comparison, Image, compare, io, side_by_side};
+use clap::Args;
+
+use crate::failure::Failure;
+use crate::output;
+
+/// Arguments of `compare`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// A picture: PNG, EXR or .npy
+    picture: PathBuf,
+    /// What it is compared with
+    reference: PathBuf,
+    /// Standard error of each pixel (linear pictures only)
+    #[arg(long, value_name = "FILE")]
+    standard_error: Option<PathBuf>,
+    /// Write both pictures beside each other
+    #[arg(long, value_name = "FILE")]
+    side_by_side: Option<PathBuf>,
+    /// Fail (exit code 1) if the mean FLIP error is greater
+    #[arg(long, value_name = "ERROR")]
+    max_flip: Option<f64>,
+    /// Fail (exit code 1) if SSIM is less
+    #[arg(long, value_name = "SSIM")]
+    min_ssim: Option<f64>,
+    /// Also write the figures as JSON (`-`: to standard output)
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// Runs `compare`.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let (picture, reference) = (load(&arguments.picture)?, load(&arguments.reference)?);
+    let standard_error = arguments.standard_error.as_deref().map(load).transpose()?;
+    if let Some(path) = &arguments.side_by_side {
+        let joined = side_by_side(&[&picture, &reference], 4).map_err(|error| Failure::input(path, error))?;
+        io::save(&joined, path).map_err(|error| Failure::output(path, std::io::Error::other(error)))?;
+    }
+    let comparison = compare(&picture, &reference, standard_error.as_ref())
+        .map_err(|error| Failure::input(&arguments.picture, error))?;
+    match &arguments.json {
+        Some(path) => output::write_json(path, &comparison)?,
+        None => print(&comparison),
+    }
+    judge(arguments, &comparison)
+}
+
+fn load(path: impl AsRef<Path>) -> Result<Image, Failure> {
+    io::load(path.as_ref()).map_err(|error| Failure::input(path.as_ref(), error))
+}
+
+fn print(comparison: &Comparison) {
+    let line = |name: &str, value: Option<f64>| match value {
+        Some(value) => println!("{name:<16} {value:.6}"),
+        None => println!("{name:<16} -"),
+    };
+    line("relMSE", comparison.relmse);
+    line("RMSE", comparison.rmse);
+    line("PSNR", comparison.psnr);
+    line("SSIM", comparison.ssim);
+    line("FLIP", Some(comparison.flip));
+    line("luminance ratio", comparison.luminance_ratio);
+    if comparison.blocks_beyond_4.is_some() {
+        line("blocks beyond 4", comparison.blocks_beyond_4);
+        line("blocks beyond 6", comparison.blocks_beyond_6);
+    }
+    if !comparison.all_finite() {
+        println!("pixels that are no numbers: {} and {}", comparison.non_finite, comparison.non_finite_reference);
+    }
+}
+
+fn judge(arguments: &Arguments, comparison: &Comparison) -> Result<(), Failure> {
+    if let Some(limit) = arguments.max_flip.filter(|limit| comparison.flip.is_nan() || comparison.flip > *limit) {
+        return Err(Failure::Check(format!("FLIP is {:.4}, more than {limit}", comparison.flip)));
+    }
+    let ssim = comparison.ssim.unwrap_or(0.0);
+    match arguments.min_ssim {
+        Some(limit) if ssim < limit => Err(Failure::Check(format!("SSIM is {ssim:.4}, less than {limit}"))),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,103 @@
+//! `afterglow inspect`: what is in a trace.
+
+use std::collections::BTreeMap;
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+
+use afterglow_trace::dump::CallLine;
+use afterglow_trace::{Call, TraceReader};
+use clap::Args;
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::options::Frames;
+use crate::output;
+
+/// Arguments of `inspect`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The trace
+    trace: PathBuf,
+    /// Only these frames: A..B without B, or one
+    #[arg(long, value_name = "A..B")]
+    frames: Option<Frames>,
+    /// Print every call
+    #[arg(long)]
+    calls: bool,
+    /// Also write the summary as JSON (`-`: to standard output)
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Debug, Default, Serialize)]
+struct Summary {
+    container: String,
+    version: u32,
+    frames: u64,
+    calls: u64,
+    bytes: u64,
+    functions: BTreeMap<String, u64>,
+}
+
+/// Runs `inspect`.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let path = &arguments.trace;
+    let mut reader = TraceReader::open(path).map_err(|error| Failure::input(path, error))?;
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    let mut summary = Summary {
+        container: format!("{:?}", reader.container()),
+        version: reader.version(),
+        ..Summary::default()
+    };
+    let frames = arguments.frames.clone().map_or(0..u64::MAX, |frames| frames.0);
+    let (mut call, mut counts) = (Call::default(), Vec::<u64>::new());
+    let end = loop {
+        match reader.next_call(&mut call) {
+            Ok(true) => {}
+            Ok(false) => break Ok(()),
+            Err(error) => break Err(Failure::input(path, error)),
+        }
+        let index = call.signature.index();
+        if frames.contains(&summary.frames) {
+            counts.resize(counts.len().max(index + 1), 0);
+            counts[index] += 1;
+            summary.calls += 1;
+            if arguments.calls && writeln!(out, "{}", CallLine::new(&call, reader.signatures())).is_err() {
+                // Whoever reads has gone away (`| head`): nothing is left to do.
+                return Ok(());
+            }
+        }
+        summary.frames += u64::from(afterglow_player::ends_frame(&reader.signature(call.signature).name));
+        if summary.frames >= frames.end {
+            break Ok(());
+        }
+    };
+    summary.bytes = reader.position();
+    for (index, count) in counts.iter().enumerate().filter(|(_, count)| **count > 0) {
+        let name = reader.signatures().functions()[index].name.to_string();
+        *summary.functions.entry(name).or_default() += count;
+    }
+    if !arguments.calls && arguments.json.is_none() {
+        let _ = print(&mut out, &summary);
+    }
+    drop(out);
+    if let Some(path) = &arguments.json {
+        output::write_json(path, &summary)?;
+    }
+    end?;
+    crate::failure::trace_end(path, reader.end())
+}
+
+fn print(out: &mut impl Write, summary: &Summary) -> std::io::Result<()> {
+    writeln!(
+        out,
+        "{} frames, {} calls, {} bytes unpacked ({}, version {})",
+        summary.frames, summary.calls, summary.bytes, summary.container, summary.version
+    )?;
+    let mut functions: Vec<_> = summary.functions.iter().collect();
+    functions.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    for (name, count) in functions {
+        writeln!(out, "{count:>10}  {name}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,91 @@
+//! Options that commands share. Each is also the environment variable `AFTERGLOW_<NAME>`.
+
+use std::ops::Range;
+use std::str::FromStr;
+
+use afterglow_gpu::GpuOptions;
+use clap::{Args, ValueEnum};
+
+/// How a frame becomes a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Mode {
+    /// What the OpenGL specification says.
+    Raster,
+    /// Light by rays, in real time.
+    Pathtrace,
+}
+
+/// Which device, and how it is watched.
+#[derive(Debug, Args)]
+pub struct DeviceArguments {
+    /// Vulkan device by part of its name, or `lavapipe`
+    #[arg(long, value_name = "NAME", env = "AFTERGLOW_DEVICE")]
+    pub device: Option<String>,
+    /// Run under the Vulkan validation layer; a message from it is a failure
+    #[arg(long, env = "AFTERGLOW_VALIDATION")]
+    pub validation: bool,
+}
+
+impl DeviceArguments {
+    /// What to ask the device layer for.
+    pub fn gpu_options(&self) -> GpuOptions {
+        GpuOptions {
+            device: self.device.clone(),
+            validation: self.validation,
+            synchronization_validation: self.validation,
+            ..GpuOptions::default()
+        }
+    }
+}
+
+/// Frames `A..B` without B, `A..` or a single `A`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Frames(pub Range<u64>);
+
+impl FromStr for Frames {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Frames, String> {
+        let number = |part: &str| part.parse::<u64>().map_err(|_| format!("'{part}' is no frame number"));
+        let range = match text.split_once("..") {
+            Some((first, "")) => number(first)?..u64::MAX,
+            Some(("", end)) => 0..number(end)?,
+            Some((first, end)) => number(first)?..number(end)?,
+            None => number(text)?..number(text)?.saturating_add(1),
+        };
+        if range.is_empty() { Err("there are no such frames".into()) } else { Ok(Frames(range)) }
+    }
+}
+
+/// `WxH` in pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Size(pub u32, pub u32);
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Size, String> {
+        let (width, height) = text.split_once('x').ok_or("expected WIDTHxHEIGHT")?;
+        let side = |text: &str| match text.parse::<u32>() {
+            Ok(side @ 1..=16384) => Ok(side),
+            _ => Err(format!("'{text}' is no side between 1 and 16384 pixels")),
+        };
+        Ok(Size(side(width)?, side(height)?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_and_sizes() {
+        assert_eq!("3..5".parse(), Ok(Frames(3..5)));
+        assert_eq!("7".parse(), Ok(Frames(7..8)));
+        assert_eq!("2..".parse(), Ok(Frames(2..u64::MAX)));
+        assert!("5..5".parse::<Frames>().is_err());
+        assert_eq!("320x240".parse(), Ok(Size(320, 240)));
+        assert!("0x240".parse::<Size>().is_err());
+        assert!("99999x2".parse::<Size>().is_err());
+    }
+}

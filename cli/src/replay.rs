@@ -1,0 +1,154 @@
+//! `afterglow replay`: plays a captured trace and writes its pictures.
+
+mod report;
+mod session;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use afterglow_player::{Player, TraceSummary};
+use afterglow_trace::TraceReader;
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::failure::{self, Failure};
+use crate::options::{DeviceArguments, Frames, Mode, Size};
+use crate::output;
+use report::Report;
+use session::Session;
+
+/// Arguments of `replay`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// The trace
+    trace: PathBuf,
+    /// How frames become pictures
+    #[arg(long, value_enum, default_value = "pathtrace", env = "AFTERGLOW_MODE")]
+    pub mode: Mode,
+    /// Frames to draw: A..B without B, or one; the default is all
+    #[arg(long, value_name = "A..B")]
+    frames: Option<Frames>,
+    /// Write only every Nth picture
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    every: u64,
+    /// Size of the pictures; the default is the traced window's
+    #[arg(long, value_name = "WxH")]
+    size: Option<Size>,
+    /// Folder for the pictures; without it none are written
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Format of the pictures
+    #[arg(long, value_enum, default_value = "png")]
+    format: Format,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub seed: u32,
+    /// Samples a pixel and frame (pathtrace)
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub spp: u32,
+    /// Print figures: frame rate, passes, calls
+    #[arg(long)]
+    stats: bool,
+    /// Move light I by X,Y,Z (world units), to see its shadows follow
+    #[arg(long, value_name = "I:X,Y,Z", hide_short_help = true)]
+    pub debug_move_light: Option<session::Move>,
+    /// Move what traced draw I shows by X,Y,Z (world units) in the world that rays see
+    #[arg(long, value_name = "I:X,Y,Z", hide_short_help = true)]
+    pub debug_move_draw: Option<session::Move>,
+    #[command(flatten)]
+    pub device: DeviceArguments,
+    /// Also write the figures as JSON (`-`: to standard output)
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// Formats of pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// 8 bits, as shown in a window.
+    Png,
+}
+
+impl Arguments {
+    /// Whether anybody will read how long the passes took.
+    fn wants_timing(&self) -> bool {
+        self.stats || self.json.is_some()
+    }
+}
+
+/// Runs `replay`.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let path = &arguments.trace;
+    let damaged = |error| Failure::input(path, error);
+    let summary = TraceSummary::open(path).map_err(damaged)?;
+    if summary.calls == 0 {
+        return Err(Failure::input(path, summary.failure.as_deref().unwrap_or("there are no calls in it")));
+    }
+    if let Some(folder) = &arguments.out {
+        std::fs::create_dir_all(folder).map_err(|error| Failure::output(folder, error))?;
+    }
+    let frames = arguments.frames.clone().map_or(0..u64::MAX, |frames| frames.0);
+    let session = Session::new(arguments)?;
+    let mut player =
+        Player::new(TraceReader::open(path).map_err(damaged)?, summary.sizes(), session.factory());
+    let progress = progress_bar(u64::from(summary.swaps).min(frames.end));
+    let mut report = Report::new(session.device());
+    let mut started = Instant::now();
+    session.set_lit(frames.start <= 1);
+    while let Some(end) = player.next_frame() {
+        let frame = u64::from(end.frame);
+        if frames.contains(&frame) {
+            let wanted = (frame - frames.start).is_multiple_of(arguments.every);
+            let finished = session.finish_frame()?;
+            report.frame(frame, &finished);
+            if let Some(folder) = arguments.out.as_ref().filter(|_| wanted) {
+                let path = folder.join(format!("frame-{frame:06}.png"));
+                output::write_picture(&path, finished.size, &finished.pixels)?;
+            }
+        }
+        progress.inc(1);
+        if frame + 1 >= frames.end {
+            break;
+        }
+        // The frame before the first is drawn too: a program may draw over what it left.
+        session.set_lit(frame + 2 >= frames.start);
+        if frame + 1 == frames.start {
+            started = Instant::now();
+        }
+    }
+    progress.finish_and_clear();
+    report.finish(started.elapsed(), &player.report());
+    conclude(arguments, &summary, &session, &report)
+}
+
+fn conclude(
+    arguments: &Arguments,
+    summary: &TraceSummary,
+    session: &Session,
+    report: &Report,
+) -> Result<(), Failure> {
+    if arguments.stats {
+        report.print();
+    }
+    if let Some(path) = &arguments.json {
+        output::write_json(path, report)?;
+    }
+    let messages = session.validation_messages();
+    if !messages.is_empty() {
+        return Err(Failure::Check(format!("validation: {} messages\n{}", messages.len(), messages.join("\n"))));
+    }
+    if let Some(failure) = &summary.failure {
+        return Err(Failure::input(&arguments.trace, format!("{failure}; what comes before was played")));
+    }
+    failure::trace_end(&arguments.trace, summary.end)?;
+    if report.is_empty() {
+        return Err(Failure::Usage(format!("the trace has {} frames, none of those asked for", summary.swaps)));
+    }
+    Ok(())
+}
+
+/// On a terminal only.
+fn progress_bar(frames: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames  {per_sec}  {eta}");
+    ProgressBar::new(frames).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

@@ -1,0 +1,125 @@
+//! One renderer that all contexts of a trace draw with.
+
+use std::str::FromStr;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use afterglow_gl::backend::{Backend, End, Reply, Request};
+use afterglow_gl::frame::{Frame, Operation};
+use afterglow_gpu::{DeviceInfo, Gpu};
+use afterglow_player::BackendFactory;
+use afterglow_render::{RenderOptions, Renderer};
+use parking_lot::Mutex;
+
+use super::Arguments;
+use super::report::Finished;
+use crate::failure::Failure;
+
+/// `I:X,Y,Z`: which, and how far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Move {
+    /// Which light or draw.
+    pub index: u32,
+    /// World units.
+    pub offset: [f32; 3],
+}
+
+impl FromStr for Move {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Move, String> {
+        let parse = || {
+            let (index, offset) = text.split_once(':')?;
+            let offset: Vec<f32> = offset.split(',').map(|v| v.parse().ok()).collect::<Option<_>>()?;
+            Some(Move { index: index.parse().ok()?, offset: offset.try_into().ok()? })
+        };
+        parse().ok_or_else(|| format!("'{text}' is not INDEX:X,Y,Z"))
+    }
+}
+
+/// A device, and a renderer on it.
+pub struct Session {
+    gpu: Gpu,
+    renderer: Arc<Mutex<Renderer>>,
+    lit: Arc<AtomicBool>,
+}
+
+/// The renderer as a context sees it.
+struct Shared {
+    renderer: Arc<Mutex<Renderer>>,
+    lit: Arc<AtomicBool>,
+}
+
+impl Backend for Shared {
+    fn submit(&mut self, mut frame: Frame, end: End) {
+        if !self.lit.load(Ordering::Relaxed) {
+            keep_state_only(&mut frame);
+        }
+        self.renderer.lock().submit(frame, end);
+    }
+
+    fn answer(&mut self, so_far: Frame, request: Request) -> Reply {
+        self.renderer.lock().answer(so_far, request)
+    }
+
+    fn recycle(&mut self) -> Frame {
+        self.renderer.lock().recycle()
+    }
+}
+
+/// Drops what only draws: nobody will see it. A frame whose pixels become texels is drawn all the same.
+fn keep_state_only(frame: &mut Frame) {
+    let reads = |operation: &Operation| matches!(operation, Operation::CopyToImage(_));
+    if frame.operations.iter().any(reads) {
+        return;
+    }
+    frame.operations.retain(|operation| {
+        use Operation::*;
+        matches!(operation, DefineImage { .. } | Upload(_) | CopyImage { .. } | DropImage(_))
+    });
+}
+
+impl Session {
+    /// Opens the device.
+    pub fn new(arguments: &Arguments) -> Result<Session, Failure> {
+        let gpu = Gpu::new(&arguments.device.gpu_options())?;
+        let mut options = RenderOptions::default();
+        options.timing = arguments.wants_timing();
+        let renderer = Renderer::new(&gpu, &options).map_err(|error| Failure::Check(error.to_string()))?;
+        Ok(Session { renderer: Arc::new(Mutex::new(renderer)), gpu, lit: Arc::new(AtomicBool::new(true)) })
+    }
+
+    /// The device.
+    pub fn device(&self) -> DeviceInfo {
+        self.gpu.info().clone()
+    }
+
+    /// Backends for contexts: they all draw with this session's renderer.
+    pub fn factory(&self) -> BackendFactory {
+        let (renderer, lit) = (self.renderer.clone(), self.lit.clone());
+        Box::new(move |_| Box::new(Shared { renderer: renderer.clone(), lit: lit.clone() }))
+    }
+
+    /// Whether the frame to come is drawn, or only played for the state it leaves.
+    pub fn set_lit(&self, lit: bool) {
+        self.lit.store(lit, Ordering::Relaxed);
+    }
+
+    /// Waits for the frame.
+    pub fn finish_frame(&self) -> Result<Finished, Failure> {
+        let mut renderer = self.renderer.lock();
+        let pixels = renderer.read_color().map_err(failed)?;
+        let [width, height] = renderer.size();
+        let rendered = renderer.frame_report().map_err(failed)?.clone();
+        Ok(Finished { size: (width, height), hash: xxhash_rust::xxh3::xxh3_64(&pixels), pixels, rendered })
+    }
+
+    /// Messages of the validation layer so far.
+    pub fn validation_messages(&self) -> Vec<String> {
+        self.gpu.validation_messages()
+    }
+}
+
+fn failed(error: impl ToString) -> Failure {
+    Failure::Check(error.to_string())
+}

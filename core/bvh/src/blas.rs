@@ -1,0 +1,243 @@
+//! Bottom levels: triangles in object space.
+
+use crate::binary::{Split, build};
+use crate::bounds::Aabb;
+use crate::encode::encode;
+use crate::error::{BuildError, check_count};
+use crate::layout::{LARGEST_COORDINATE, MAX_DEPTH_BLAS, MAX_LEAF, Node, TRIANGLE_UNITS, Triangle};
+use crate::optimise::optimise;
+use glam::Vec3;
+
+/// How much time a build may take for faster rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quality {
+    /// Surface-area heuristic over bins: for geometry that changes.
+    Fast,
+    /// The same tree improved by reinsertion: for what is built once.
+    Good,
+}
+
+/// What a hit needs to know of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TriangleAttributes {
+    /// Reported by a hit.
+    pub primitive: u32,
+    /// `FLAG_ALPHA_TESTED`, `FLAG_TWO_SIDED`.
+    pub flags: u32,
+}
+
+/// Triangles to build from.
+#[derive(Clone, Copy, Debug)]
+pub struct BlasInput<'a> {
+    /// Corners in object space.
+    pub positions: &'a [[f32; 3]],
+    /// Three positions a triangle.
+    pub indices: &'a [[u32; 3]],
+    /// One a triangle; or none: primitives then are the triangles' numbers, flags 0.
+    pub attributes: &'a [TriangleAttributes],
+}
+
+/// A bottom level, ready to be copied to a 16-byte-aligned device address.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blas {
+    /// Nodes, then triangles; see [`crate::layout`].
+    pub words: Vec<u32>,
+    /// How many nodes.
+    pub node_count: u32,
+    /// How many triangles.
+    pub triangle_count: u32,
+    /// Levels of nodes.
+    pub depth: u32,
+    /// Triangles left out: an index or coordinate out of range, or no area.
+    pub skipped: u32,
+    /// The box of all triangles, in object space.
+    pub bounds: Aabb,
+}
+
+impl Blas {
+    /// Bytes on the device.
+    pub fn size_bytes(&self) -> usize {
+        self.words.len() * 4
+    }
+
+    /// The nodes.
+    pub fn nodes(&self) -> &[Node] {
+        bytemuck::cast_slice(&self.words[..self.first_triangle()])
+    }
+
+    /// The triangles, in the order of leaves.
+    pub fn triangles(&self) -> &[Triangle] {
+        bytemuck::cast_slice(&self.words[self.first_triangle()..])
+    }
+
+    fn first_triangle(&self) -> usize {
+        self.node_count as usize * size_of::<Node>() / 4
+    }
+}
+
+/// Builds a bottom level whose hits report triangle numbers of `indices`.
+///
+/// # Errors
+/// [`BuildError::TooMany`] for more than 2^27 triangles.
+pub fn build_blas(
+    positions: &[[f32; 3]],
+    indices: &[[u32; 3]],
+    quality: Quality,
+) -> Result<Blas, BuildError> {
+    let input = BlasInput { positions, indices, attributes: &[] };
+    build_blas_with(&input, quality)
+}
+
+/// Builds a bottom level; the same input gives the same words, whatever the number of threads.
+///
+/// # Errors
+/// [`BuildError`] where the input is too large or its attributes are not one a triangle.
+pub fn build_blas_with(input: &BlasInput, quality: Quality) -> Result<Blas, BuildError> {
+    check_count(input.indices.len())?;
+    let given = input.attributes.len();
+    if given != 0 && given != input.indices.len() {
+        return Err(BuildError::AttributeCount { attributes: given, triangles: input.indices.len() });
+    }
+    let triangles = gather(input);
+    let boxes: Vec<Aabb> = triangles.iter().map(bounds_of).collect();
+    let mut tree = build(&boxes, Split::SurfaceArea);
+    if quality == Quality::Good {
+        tree = optimise(tree, &boxes);
+    }
+    let mut wide = encode(&tree, &boxes, MAX_LEAF, MAX_DEPTH_BLAS);
+    wide.place_leaves(TRIANGLE_UNITS);
+
+    let mut words: Vec<u32> = Vec::new();
+    words.extend_from_slice(bytemuck::cast_slice(&wide.nodes));
+    for &place in &wide.order {
+        words.extend_from_slice(bytemuck::cast_slice(&[triangles[place as usize]]));
+    }
+    Ok(Blas {
+        words,
+        node_count: wide.nodes.len() as u32,
+        triangle_count: triangles.len() as u32,
+        depth: wide.depth,
+        skipped: (input.indices.len() - triangles.len()) as u32,
+        bounds: boxes.iter().fold(Aabb::EMPTY, |sum, &b| sum.union(b)),
+    })
+}
+
+/// The triangles that can be hit.
+fn gather(input: &BlasInput) -> Vec<Triangle> {
+    let attributes = |number: usize| {
+        input
+            .attributes
+            .get(number)
+            .copied()
+            .unwrap_or(TriangleAttributes { primitive: number as u32, flags: 0 })
+    };
+    let triangle = |(number, corners): (usize, &[u32; 3])| {
+        let vertices = corners_of(input.positions, corners)?;
+        let TriangleAttributes { primitive, flags } = attributes(number);
+        Some(Triangle { vertices, primitive, flags, reserved: 0 })
+    };
+    let numbered = input.indices.iter().enumerate();
+    numbered.filter_map(triangle).collect()
+}
+
+/// The corners, None where the triangle cannot be hit or would upset the tree.
+pub(crate) fn corners_of(positions: &[[f32; 3]], corners: &[u32; 3]) -> Option<[[f32; 3]; 3]> {
+    let mut vertices = [[0.0; 3]; 3];
+    for (vertex, &corner) in vertices.iter_mut().zip(corners) {
+        *vertex = *positions.get(corner as usize)?;
+        // NaN fails the comparison too.
+        if !vertex.iter().all(|c| c.abs() <= LARGEST_COORDINATE) {
+            return None;
+        }
+    }
+    let [a, b, c] = vertices.map(|v| Vec3::from(v).as_dvec3());
+    let area_doubled = (b - a).cross(c - a).length();
+    (area_doubled > 0.0).then_some(vertices)
+}
+
+pub(crate) fn bounds_of(triangle: &Triangle) -> Aabb {
+    Aabb::around(&triangle.vertices.map(Vec3::from))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::Random;
+
+    #[test]
+    fn what_cannot_be_hit_is_left_out_and_numbers_stay() {
+        let positions = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [f32::NAN, 0.0, 0.0],
+            [f32::INFINITY, 0.0, 0.0],
+            [1e30, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+        ];
+        let indices =
+            [[0, 1, 3], [0, 1, 1], [0, 1, 2], [0, 1, 6], [4, 1, 2], [5, 1, 2], [0, 1, 99], [6, 1, 2]];
+        let blas = build_blas(&positions, &indices, Quality::Good).unwrap();
+        assert_eq!((blas.triangle_count, blas.skipped), (2, 6));
+        let mut primitives: Vec<u32> = blas.triangles().iter().map(|t| t.primitive).collect();
+        primitives.sort_unstable();
+        assert_eq!(primitives, [2, 7]);
+        assert_eq!(blas.bounds.max, Vec3::new(2.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn coincident_triangles_stay_shallow() {
+        let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let indices = vec![[0, 1, 2]; 30_000];
+        for quality in [Quality::Fast, Quality::Good] {
+            let blas = build_blas(&positions, &indices, quality).unwrap();
+            assert_eq!(blas.triangle_count, 30_000);
+            assert!(blas.depth <= 8, "{}", blas.depth);
+        }
+    }
+
+    #[test]
+    fn nothing_is_an_empty_structure() {
+        let blas = build_blas(&[], &[], Quality::Good).unwrap();
+        assert_eq!((blas.node_count, blas.triangle_count), (1, 0));
+        assert!(blas.bounds.is_empty());
+        assert_eq!(blas.nodes()[0].meta, [0; 8]);
+    }
+
+    #[test]
+    fn attributes_must_match() {
+        let input = BlasInput {
+            positions: &[[0.0; 3]],
+            indices: &[[0; 3], [0; 3]],
+            attributes: &[TriangleAttributes { primitive: 0, flags: 0 }],
+        };
+        assert_eq!(
+            build_blas_with(&input, Quality::Fast),
+            Err(BuildError::AttributeCount { attributes: 1, triangles: 2 })
+        );
+    }
+
+    #[test]
+    fn the_same_input_gives_the_same_words_on_any_number_of_threads() {
+        let mut random = Random::new(5);
+        let mut positions = Vec::new();
+        let mut indices = Vec::new();
+        for i in 0..10_000u32 {
+            let at = random.vec3() * 50.0;
+            for _ in 0..3 {
+                positions.push((at + random.vec3()).to_array());
+            }
+            indices.push([3 * i, 3 * i + 1, 3 * i + 2]);
+        }
+        for quality in [Quality::Fast, Quality::Good] {
+            let on_threads = |threads: usize| {
+                rayon::ThreadPoolBuilder::new()
+                    .num_threads(threads)
+                    .build()
+                    .unwrap()
+                    .install(|| build_blas(&positions, &indices, quality).unwrap())
+            };
+            assert_eq!(on_threads(1), on_threads(4));
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! What builders refuse.
+
+/// Input that no structure can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BuildError {
+    /// References are 32-bit counts of 16 bytes.
+    #[error("{count} primitives in one structure, more than the {limit} that references reach")]
+    TooMany {
+        /// How many were given.
+        count: usize,
+        /// How many fit.
+        limit: usize,
+    },
+    /// Attributes are given for each triangle or not at all.
+    #[error("{attributes} triangle attributes for {triangles} triangles")]
+    AttributeCount {
+        /// Attributes given.
+        attributes: usize,
+        /// Triangles given.
+        triangles: usize,
+    },
+}
+
+/// Most primitives of one structure.
+pub(crate) const MAX_PRIMITIVES: usize = 1 << 27;
+
+/// Refuses what references cannot reach.
+pub(crate) fn check_count(count: usize) -> Result<(), BuildError> {
+    let limit = MAX_PRIMITIVES;
+    if count > limit {
+        return Err(BuildError::TooMany { count, limit });
+    }
+    Ok(())
+}

@@ -1,0 +1,28 @@
+//! The two-level bounding volume hierarchy of the software ray tracer: builders on the CPU, the
+//! format that shaders read (`shaders/include/bvh.glsl`), and a reference traversal over the same
+//! words.
+//!
+//! Triangles → [`build_blas`] → [`Blas`], copied to the device; instances that name the addresses →
+//! [`build_tlas`] → [`Tlas`]. One node format serves both: eight-wide, boxes quantised to 8 bits.
+
+mod binary;
+mod blas;
+mod bounds;
+mod collapse;
+mod encode;
+mod error;
+pub mod intersect;
+pub mod layout;
+mod optimise;
+mod refit;
+mod tlas;
+pub mod traverse;
+
+#[cfg(test)]
+mod testing;
+
+pub use blas::{Blas, BlasInput, Quality, TriangleAttributes, build_blas, build_blas_with};
+pub use bounds::Aabb;
+pub use error::BuildError;
+pub use tlas::{IDENTITY, Instance, Tlas, build_tlas};
+pub use traverse::{Hit, Query, Ray, Scene, trace};

@@ -1,0 +1,200 @@
+//! Buffer objects (specification 2.9).
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use afterglow_api::constants::*;
+use parking_lot::Mutex;
+
+use crate::context::Context;
+use crate::limits;
+use crate::shared::SharedBuffer;
+
+/// A buffer object's data store. Every change gives it a new version, unique in the process.
+#[derive(Debug)]
+pub struct BufferObject {
+    /// The bytes.
+    pub data: Vec<u8>,
+    /// Changes with the content.
+    pub version: u64,
+    usage: u32,
+    access: u32,
+    mapped: bool,
+}
+
+static VERSIONS: AtomicU64 = AtomicU64::new(1);
+
+impl Default for BufferObject {
+    fn default() -> BufferObject {
+        BufferObject { data: Vec::new(), version: 0, usage: GL_STATIC_DRAW, access: GL_READ_WRITE, mapped: false }
+    }
+}
+
+impl BufferObject {
+    fn touch(&mut self) {
+        self.version = VERSIONS.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+impl Context {
+    /// glGenBuffers.
+    pub fn gen_buffers(&mut self, n: i32) -> Vec<u32> {
+        if !(0..=limits::GENERATED_NAMES).contains(&n) {
+            self.record_error(GL_INVALID_VALUE);
+            return Vec::new();
+        }
+        self.shared.lock().generate_buffers(n as usize)
+    }
+
+    /// glDeleteBuffers. What is bound here becomes unbound.
+    pub fn delete_buffers(&mut self, names: &[u32]) {
+        for name in names.iter().filter(|&&n| n != 0) {
+            self.shared.lock().buffers.remove(name);
+            self.client.unbind(*name);
+        }
+    }
+
+    /// glIsBuffer.
+    pub fn is_buffer(&mut self, name: u32) -> bool {
+        matches!(self.shared.lock().buffers.get(&name), Some(Some(_)))
+    }
+
+    /// glBindBuffer.
+    pub fn bind_buffer(&mut self, target: u32, name: u32) {
+        if self.in_begin() {
+            return self.record_error(GL_INVALID_OPERATION);
+        }
+        let Some(slot) = self.client.binding_mut(target) else {
+            return self.record_error(GL_INVALID_ENUM);
+        };
+        if slot.as_ref().map_or(0, |(bound, _)| *bound) == name {
+            return;
+        }
+        *slot = (name != 0).then(|| {
+            let mut names = self.shared.lock();
+            let entry = names.buffers.entry(name).or_default();
+            (name, entry.get_or_insert_with(|| Arc::new(Mutex::default())).clone())
+        });
+    }
+
+    fn bound_buffer(&mut self, target: u32) -> Option<SharedBuffer> {
+        let Some(slot) = self.client.binding_mut(target) else {
+            self.record_error(GL_INVALID_ENUM);
+            return None;
+        };
+        let buffer = slot.as_ref().map(|(_, buffer)| buffer.clone());
+        if buffer.is_none() {
+            self.record_error(GL_INVALID_OPERATION);
+        }
+        buffer
+    }
+
+    /// glBufferData; without data the bytes are zero.
+    pub fn buffer_data(&mut self, target: u32, size: isize, data: Option<&[u8]>, usage: u32) {
+        let Some(buffer) = self.bound_buffer(target) else { return };
+        let Ok(size) = usize::try_from(size) else { return self.record_error(GL_INVALID_VALUE) };
+        if !(GL_STREAM_DRAW..=GL_DYNAMIC_COPY).contains(&usage) {
+            return self.record_error(GL_INVALID_ENUM);
+        }
+        if size > limits::BUFFER_BYTES {
+            return self.record_error(GL_OUT_OF_MEMORY);
+        }
+        let mut buffer = buffer.lock();
+        buffer.data.clear();
+        buffer.data.extend_from_slice(data.map_or(&[][..], |d| &d[..d.len().min(size)]));
+        buffer.data.resize(size, 0);
+        (buffer.usage, buffer.mapped, buffer.access) = (usage, false, GL_READ_WRITE);
+        buffer.touch();
+    }
+
+    /// glBufferSubData.
+    pub fn buffer_sub_data(&mut self, target: u32, offset: isize, data: &[u8]) {
+        let Some(buffer) = self.bound_buffer(target) else { return };
+        let mut buffer = buffer.lock();
+        if buffer.mapped {
+            drop(buffer);
+            return self.record_error(GL_INVALID_OPERATION);
+        }
+        let range = usize::try_from(offset).ok().and_then(|o| Some(o..o.checked_add(data.len())?));
+        match range.and_then(|range| buffer.data.get_mut(range)) {
+            Some(target) => target.copy_from_slice(data),
+            None => {
+                drop(buffer);
+                return self.record_error(GL_INVALID_VALUE);
+            }
+        }
+        buffer.touch();
+    }
+
+    /// glGetBufferSubData; empty after an error.
+    pub fn get_buffer_sub_data(&mut self, target: u32, offset: isize, size: isize) -> Vec<u8> {
+        let Some(buffer) = self.bound_buffer(target) else { return Vec::new() };
+        let buffer = buffer.lock();
+        let range = usize::try_from(offset)
+            .ok()
+            .and_then(|o| Some(o..o.checked_add(usize::try_from(size).ok()?)?));
+        let bytes = range.and_then(|range| buffer.data.get(range)).map(<[u8]>::to_vec);
+        let mapped = buffer.mapped;
+        drop(buffer);
+        match bytes {
+            Some(bytes) if !mapped => return bytes,
+            Some(_) => self.record_error(GL_INVALID_OPERATION),
+            None => self.record_error(GL_INVALID_VALUE),
+        }
+        Vec::new()
+    }
+
+    /// glMapBuffer; the bytes are in [`Context::mapped_buffer`].
+    pub fn map_buffer(&mut self, target: u32, access: u32) -> bool {
+        if !(GL_READ_ONLY..=GL_READ_WRITE).contains(&access) {
+            self.record_error(GL_INVALID_ENUM);
+            return false;
+        }
+        let Some(buffer) = self.bound_buffer(target) else { return false };
+        let mut buffer = buffer.lock();
+        if buffer.mapped {
+            drop(buffer);
+            self.record_error(GL_INVALID_OPERATION);
+            return false;
+        }
+        (buffer.mapped, buffer.access) = (true, access);
+        true
+    }
+
+    /// The buffer bound to `target`, if it is mapped.
+    pub fn mapped_buffer(&mut self, target: u32) -> Option<SharedBuffer> {
+        let (_, buffer) = self.client.binding_mut(target)?.clone()?;
+        buffer.lock().mapped.then(|| buffer.clone())
+    }
+
+    /// glUnmapBuffer.
+    pub fn unmap_buffer(&mut self, target: u32) -> bool {
+        let Some(buffer) = self.bound_buffer(target) else { return false };
+        let mut buffer = buffer.lock();
+        if !buffer.mapped {
+            drop(buffer);
+            self.record_error(GL_INVALID_OPERATION);
+            return false;
+        }
+        buffer.mapped = false;
+        buffer.touch();
+        true
+    }
+
+    /// glGetBufferParameter.
+    pub fn get_buffer_parameter(&mut self, target: u32, pname: u32) -> i32 {
+        let Some(buffer) = self.bound_buffer(target) else { return 0 };
+        let buffer = buffer.lock();
+        match pname {
+            GL_BUFFER_SIZE => buffer.data.len() as i32,
+            GL_BUFFER_USAGE => buffer.usage as i32,
+            GL_BUFFER_ACCESS => buffer.access as i32,
+            GL_BUFFER_MAPPED => buffer.mapped.into(),
+            _ => {
+                drop(buffer);
+                self.record_error(GL_INVALID_ENUM);
+                0
+            }
+        }
+    }
+}

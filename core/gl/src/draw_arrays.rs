@@ -1,0 +1,314 @@
+//! Drawing from arrays. Arrays in buffer objects that did not change since they were drawn before
+//! become retained ranges; all others are copied into the frame.
+
+use std::sync::Arc;
+
+use afterglow_api::constants::*;
+use hashbrown::HashMap;
+
+use crate::arrays::{EDGE_FLAG, Pointer, Source};
+use crate::assemble::{self, PolygonMode};
+use crate::context::Context;
+use crate::emit::Kind;
+use crate::frame::{RetainedRange, SLOTS, Slot, VertexLayout};
+use crate::gather::{Elements, component_bytes, stored_format};
+use crate::limits;
+
+/// Retained ranges that are kept for arrays in buffer objects.
+const RANGES_KEPT: usize = 16384;
+
+/// Ranges made of buffer objects' content, by what they were made of.
+#[derive(Debug, Default)]
+pub struct RangeCache {
+    ranges: HashMap<u64, Option<Arc<RetainedRange>>>,
+}
+
+/// Which vertices a draw takes, in order.
+enum Selection<'a> {
+    Consecutive { first: usize, count: usize },
+    Indexed { indices: &'a [u32], least: usize, count: usize },
+}
+
+impl Selection<'_> {
+    /// First vertex and number of vertices that are read.
+    fn span(&self) -> (usize, usize) {
+        match *self {
+            Selection::Consecutive { first, count } => (first, count),
+            Selection::Indexed { least, count, .. } => (least, count),
+        }
+    }
+}
+
+impl Context {
+    /// glDrawArrays.
+    pub fn draw_arrays(&mut self, mode: u32, first: i32, count: i32) {
+        if !self.may_draw(mode) {
+            return;
+        }
+        let (Ok(first), Ok(count)) = (usize::try_from(first), usize::try_from(count)) else {
+            return self.record_error(GL_INVALID_VALUE);
+        };
+        self.draw_selection(mode, Selection::Consecutive { first, count });
+    }
+
+    /// glDrawElements.
+    pub fn draw_elements(&mut self, mode: u32, count: i32, kind: u32, indices: Pointer) {
+        if !self.may_draw(mode) {
+            return;
+        }
+        if !matches!(kind, GL_UNSIGNED_BYTE | GL_UNSIGNED_SHORT | GL_UNSIGNED_INT) {
+            return self.record_error(GL_INVALID_ENUM);
+        }
+        let Ok(count) = usize::try_from(count) else { return self.record_error(GL_INVALID_VALUE) };
+        if count > limits::DRAW_VERTICES {
+            return self.record_error(GL_OUT_OF_MEMORY);
+        }
+        let mut values = std::mem::take(&mut self.scratch.indices);
+        values.clear();
+        if self.read_indices(count, kind, indices, &mut values) && !values.is_empty() {
+            let (least, greatest) =
+                values.iter().fold((u32::MAX, 0), |(l, g), &i| (l.min(i), g.max(i)));
+            let span = (greatest - least) as usize + 1;
+            let selection = Selection::Indexed { indices: &values, least: least as usize, count: span };
+            self.draw_selection(mode, selection);
+        }
+        self.scratch.indices = values;
+    }
+
+    /// glDrawRangeElements.
+    pub fn draw_range_elements(&mut self, mode: u32, start: u32, end: u32, count: i32, kind: u32, indices: Pointer) {
+        if end < start {
+            return self.record_error(GL_INVALID_VALUE);
+        }
+        self.draw_elements(mode, count, kind, indices);
+    }
+
+    /// glMultiDrawArrays.
+    pub fn multi_draw_arrays(&mut self, mode: u32, firsts: &[i32], counts: &[i32]) {
+        for (&first, &count) in firsts.iter().zip(counts).filter(|(_, c)| **c > 0) {
+            self.draw_arrays(mode, first, count);
+        }
+    }
+
+    /// glMultiDrawElements.
+    pub fn multi_draw_elements(&mut self, mode: u32, counts: &[i32], kind: u32, indices: Vec<Pointer>) {
+        for (&count, pointer) in counts.iter().zip(indices).filter(|(c, _)| **c > 0) {
+            self.draw_elements(mode, count, kind, pointer);
+        }
+    }
+
+    /// glArrayElement.
+    pub fn array_element(&mut self, i: i32) {
+        let Ok(i) = usize::try_from(i) else { return self.record_error(GL_INVALID_VALUE) };
+        // The position comes last, since it makes the vertex.
+        for slot in (0..=EDGE_FLAG).rev() {
+            if !self.client.arrays[slot].enabled {
+                continue;
+            }
+            let value = self.with_elements(slot, i, 1, |elements| elements.get(0));
+            match (value, slot) {
+                (Some(value), 0) => self.vertex(value),
+                (Some(value), EDGE_FLAG) => self.edge_flag(value[0] != 0.0),
+                (Some(value), _) => self.attribute(slot, value),
+                (None, _) => {}
+            }
+        }
+    }
+
+    fn may_draw(&mut self, mode: u32) -> bool {
+        if !assemble::is_mode(mode) {
+            self.record_error(GL_INVALID_ENUM);
+            return false;
+        }
+        if self.in_begin() {
+            self.record_error(GL_INVALID_OPERATION);
+            return false;
+        }
+        true
+    }
+
+    fn draw_selection(&mut self, mode: u32, selection: Selection) {
+        let (first, count) = selection.span();
+        if count == 0 || !self.client.arrays[Slot::Position as usize].enabled {
+            return;
+        }
+        if count > limits::DRAW_VERTICES {
+            return self.record_error(GL_OUT_OF_MEMORY);
+        }
+        let polygon_mode =
+            if self.list.is_some() { PolygonMode::Fill } else { self.effective_polygon_mode() };
+        let kind = Kind::of(mode, polygon_mode);
+        let key = self.retained_key(mode, &selection).filter(|_| {
+            self.list.is_none() && !matches!(kind, Kind::Polygons(PolygonMode::Line | PolygonMode::Point))
+        });
+        if let Some(Some(range)) = key.and_then(|key| self.ranges.ranges.get(&key)) {
+            let range = range.clone();
+            return self.emit_retained(&range, kind);
+        }
+        let mut words = std::mem::take(&mut self.scratch.words);
+        let mut indices = std::mem::take(&mut self.scratch.assembled);
+        if let Some(layout) = self.gather(first, count, &mut words) {
+            self.assemble_selection(mode, polygon_mode, &selection, &mut indices);
+            if let Some(list) = &mut self.list {
+                list.geometry(layout, kind, &words, &indices);
+            }
+            if key.is_some_and(|key| self.seen_before(key)) {
+                let range = Arc::new(RetainedRange::new(layout, words.clone(), indices.clone()));
+                self.ranges.ranges.insert(key.unwrap_or_default(), Some(range.clone()));
+                self.emit_retained(&range, kind);
+            } else if self.list.as_ref().is_none_or(|list| list.executes) {
+                self.emit_indexed(layout, kind, &words, &indices);
+            }
+        }
+        (self.scratch.words, self.scratch.assembled) = (words, indices);
+    }
+
+    /// Whether the key was noted before; notes it. Content that is drawn only once is not worth a range.
+    fn seen_before(&mut self, key: u64) -> bool {
+        if self.ranges.ranges.len() >= RANGES_KEPT {
+            self.ranges.ranges.clear();
+        }
+        self.ranges.ranges.insert(key, None).is_some()
+    }
+
+    fn assemble_selection(
+        &self,
+        mode: u32,
+        polygon_mode: PolygonMode,
+        selection: &Selection,
+        out: &mut Vec<u32>,
+    ) {
+        out.clear();
+        let (indices, least, count) = match *selection {
+            Selection::Consecutive { count, .. } => (None, 0, count),
+            Selection::Indexed { indices, least, .. } => (Some(indices), least as u32, indices.len()),
+        };
+        let vertex = |i: usize| indices.map_or(i as u32, |indices| indices[i] - least);
+        let polygons = matches!(Kind::of(mode, polygon_mode), Kind::Polygons(_));
+        if polygons && polygon_mode != PolygonMode::Fill {
+            assemble::assemble_unfilled(mode, count, polygon_mode, vertex, |_| true, out);
+        } else {
+            assemble::assemble(mode, count, vertex, out);
+        }
+    }
+
+    /// Copies `count` vertices from vertex `first` on; `None` if an array does not reach that far.
+    fn gather(&mut self, first: usize, count: usize, out: &mut Vec<u32>) -> Option<VertexLayout> {
+        let mut layout = VertexLayout::default();
+        for (slot, array) in self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.enabled) {
+            layout = layout.with(slot, stored_format(array.size, array.kind, is_normalized(slot)));
+        }
+        let stride = layout.stride();
+        // Every array must reach that far before memory is taken for what they claim to hold.
+        for slot in (0..SLOTS).filter(|&slot| self.client.arrays[slot].enabled) {
+            self.with_elements(slot, first, count, |_| ())?;
+        }
+        out.clear();
+        out.resize(count.checked_mul(stride)?, 0);
+        for slot in 0..SLOTS {
+            if self.client.arrays[slot].enabled {
+                let (format, offset) = (layout.format(slot), layout.offset(slot));
+                self.with_elements(slot, first, count, |e| e.store(count, format, out, offset, stride))?;
+            }
+        }
+        Some(layout)
+    }
+
+    /// Calls `f` with elements `first` to `first + count` of an array, if it has them.
+    fn with_elements<R>(
+        &self,
+        slot: usize,
+        first: usize,
+        count: usize,
+        f: impl FnOnce(Elements) -> R,
+    ) -> Option<R> {
+        let array = &self.client.arrays[slot];
+        let (size, kind) = (array.size as usize, array.kind);
+        let stride = match array.stride as usize {
+            0 => size * component_bytes(kind),
+            stride => stride,
+        };
+        let (start, needed) = (first.checked_mul(stride)?, Elements::needed(stride, size, kind, count)?);
+        let normalized = is_normalized(slot);
+        match &array.source {
+            Source::Null => None,
+            Source::Blob(bytes) => {
+                let bytes = bytes.get(start..)?.get(..needed)?;
+                Some(f(Elements { bytes, stride, size, kind, normalized }))
+            }
+            Source::Buffer(_, buffer, offset) => {
+                let buffer = buffer.lock();
+                let bytes = buffer.data.get(usize::try_from(*offset).ok()?..)?.get(start..)?.get(..needed)?;
+                Some(f(Elements { bytes, stride, size, kind, normalized }))
+            }
+            Source::Memory(address) => {
+                let address = address.checked_add(start)?;
+                // SAFETY: whoever made the pointer promised that the program's memory can be read as far
+                // as its draws reach (the contract of glVertexPointer).
+                let bytes = unsafe { std::slice::from_raw_parts(address as *const u8, needed) };
+                Some(f(Elements { bytes, stride, size, kind, normalized }))
+            }
+        }
+    }
+
+    /// Reads indices; false if they are not there.
+    fn read_indices(&mut self, count: usize, kind: u32, pointer: Pointer, out: &mut Vec<u32>) -> bool {
+        let needed = count * component_bytes(kind);
+        let offset = match (&pointer, self.client.element_buffer.is_some()) {
+            (Pointer::Offset(offset), true) => Some(*offset as usize),
+            (Pointer::Null, true) => Some(0),
+            (Pointer::Memory(offset), true) => Some(*offset),
+            _ => None,
+        };
+        match (offset, &self.client.element_buffer, &pointer) {
+            (Some(offset), Some((_, buffer)), _) => {
+                let buffer = buffer.lock();
+                let bytes = buffer.data.get(offset..).and_then(|b| b.get(..needed));
+                bytes.map(|bytes| widen(kind, bytes, out)).is_some()
+            }
+            (_, _, Pointer::Blob(bytes)) => {
+                bytes.get(..needed).map(|bytes| widen(kind, bytes, out)).is_some()
+            }
+            (_, _, Pointer::Memory(address)) if *address != 0 => {
+                // SAFETY: the contract of glDrawElements: the program's memory holds `count` indices.
+                widen(kind, unsafe { std::slice::from_raw_parts(*address as *const u8, needed) }, out);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Names what the draw would read, if all of it is in buffer objects.
+    fn retained_key(&self, mode: u32, selection: &Selection) -> Option<u64> {
+        let arrays = self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.enabled);
+        if arrays.clone().any(|(_, array)| !matches!(array.source, Source::Buffer(..))) {
+            return None;
+        }
+        let mut hasher = xxhash_rust::xxh3::Xxh3::new();
+        let (first, count) = selection.span();
+        hasher.update(bytemuck::cast_slice(&[u64::from(mode), first as u64, count as u64]));
+        if let Selection::Indexed { indices, .. } = selection {
+            hasher.update(bytemuck::cast_slice(indices));
+        }
+        for (slot, array) in arrays {
+            let Source::Buffer(_, buffer, offset) = &array.source else { return None };
+            let shape = (slot as u64) << 48 | u64::from(array.size) << 40 | u64::from(array.kind);
+            let words = [buffer.lock().version, *offset, shape, array.stride.into()];
+            hasher.update(bytemuck::cast_slice(&words));
+        }
+        Some(hasher.digest())
+    }
+}
+
+/// Whether integers of an array mean fractions (specification 2.8).
+fn is_normalized(slot: usize) -> bool {
+    (Slot::Normal as usize..=Slot::Secondary as usize).contains(&slot)
+}
+
+fn widen(kind: u32, bytes: &[u8], out: &mut Vec<u32>) {
+    match kind {
+        GL_UNSIGNED_BYTE => out.extend(bytes.iter().map(|&b| u32::from(b))),
+        GL_UNSIGNED_SHORT => out.extend(bytes.as_chunks::<2>().0.iter().map(|&b| u32::from(u16::from_le_bytes(b)))),
+        _ => out.extend(bytes.as_chunks::<4>().0.iter().map(|&b| u32::from_le_bytes(b))),
+    }
+}

@@ -1,0 +1,152 @@
+//! Vertices in memory: their layout, and ranges that outlive a frame.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::words::TEXTURE_UNITS;
+
+/// An attribute of a vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum Slot {
+    /// Object-space position.
+    Position = 0,
+    /// Normal.
+    Normal = 1,
+    /// Primary colour.
+    Color = 2,
+    /// Secondary colour.
+    Secondary = 3,
+    /// Fog coordinate.
+    Fog = 4,
+    /// Texture coordinates of unit 0; the other units follow.
+    Texture0 = 5,
+}
+
+/// Number of attribute slots.
+pub const SLOTS: usize = 5 + TEXTURE_UNITS;
+
+/// How an attribute is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum Format {
+    /// Not stored: the draw's current value holds for every vertex.
+    Absent = 0,
+    /// One f32; y = z = 0, w = 1.
+    F1 = 1,
+    /// Two f32.
+    F2 = 2,
+    /// Three f32.
+    F3 = 3,
+    /// Four f32.
+    F4 = 4,
+    /// Four unsigned normalised bytes in one word, red in the lowest byte.
+    Unorm8x4 = 5,
+}
+
+impl Format {
+    /// Words that the attribute takes.
+    pub const fn words(self) -> usize {
+        match self {
+            Format::Absent => 0,
+            Format::Unorm8x4 | Format::F1 => 1,
+            Format::F2 => 2,
+            Format::F3 => 3,
+            Format::F4 => 4,
+        }
+    }
+
+    const fn from_bits(bits: u32) -> Format {
+        match bits {
+            1 => Format::F1,
+            2 => Format::F2,
+            3 => Format::F3,
+            4 => Format::F4,
+            5 => Format::Unorm8x4,
+            _ => Format::Absent,
+        }
+    }
+}
+
+/// Attributes of a vertex, stored tightly in slot order: 3 bits of [`Format`] a slot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct VertexLayout(pub u32);
+
+impl VertexLayout {
+    /// The same layout with `slot` stored as `format`.
+    #[must_use]
+    pub const fn with(self, slot: usize, format: Format) -> VertexLayout {
+        let shift = 3 * slot as u32;
+        VertexLayout((self.0 & !(7 << shift)) | ((format as u32) << shift))
+    }
+
+    /// How `slot` is stored.
+    pub const fn format(self, slot: usize) -> Format {
+        Format::from_bits((self.0 >> (3 * slot as u32)) & 7)
+    }
+
+    /// Words from one vertex to the next.
+    pub const fn stride(self) -> usize {
+        self.offset(SLOTS)
+    }
+
+    /// Words from the start of a vertex to `slot`.
+    pub const fn offset(self, slot: usize) -> usize {
+        let (mut words, mut i) = (0, 0);
+        while i < slot {
+            words += self.format(i).words();
+            i += 1;
+        }
+        words
+    }
+}
+
+/// Vertices and indices that outlive a frame (a display list's, a buffer object's): never changed;
+/// new content is a new range. Uploaded once, hashed once.
+#[derive(Debug)]
+pub struct RetainedRange {
+    id: u64,
+    /// How the vertices are stored.
+    pub layout: VertexLayout,
+    /// The vertices, `layout.stride()` words each.
+    pub words: Box<[u32]>,
+    /// Indices from 0, of triangles, lines or points.
+    pub indices: Box<[u32]>,
+    hash: OnceLock<u64>,
+}
+
+static NEXT_RANGE: AtomicU64 = AtomicU64::new(1);
+
+impl RetainedRange {
+    /// A range with an id of its own.
+    pub fn new(layout: VertexLayout, words: Vec<u32>, indices: Vec<u32>) -> RetainedRange {
+        RetainedRange {
+            id: NEXT_RANGE.fetch_add(1, Ordering::Relaxed),
+            layout,
+            words: words.into(),
+            indices: indices.into(),
+            hash: OnceLock::new(),
+        }
+    }
+
+    /// Unique in the process, never used again.
+    pub fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// Hash of layout, vertices and indices, computed once.
+    pub fn content_hash(&self) -> u64 {
+        *self.hash.get_or_init(|| {
+            let mut hasher = xxhash_rust::xxh3::Xxh3::new();
+            hasher.update(&self.layout.0.to_le_bytes());
+            hasher.update(bytemuck::cast_slice(&self.words));
+            hasher.update(bytemuck::cast_slice(&self.indices));
+            hasher.digest()
+        })
+    }
+
+    /// Number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.words.len().checked_div(self.layout.stride()).unwrap_or(0)
+    }
+}

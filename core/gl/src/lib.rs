@@ -1,0 +1,40 @@
+//! OpenGL 1.x semantics: calls in, frames of ordered operations out. Nothing here knows a device.
+
+mod arrays;
+mod assemble;
+mod attrib_stack;
+mod attributes;
+pub mod backend;
+mod blocks;
+mod buffers;
+mod commands;
+mod context;
+mod draw_arrays;
+mod emit;
+mod enable;
+mod extensions;
+mod fragment;
+pub mod frame;
+mod gather;
+mod get;
+mod get_objects;
+mod immediate;
+mod lighting;
+mod limits;
+mod lists;
+mod matrices;
+mod params;
+pub mod pixel;
+mod pixels;
+mod query;
+mod shared;
+mod state;
+mod tex_images;
+pub mod texture;
+mod texturing;
+
+pub use arrays::Pointer;
+pub use context::{Context, Params};
+pub use get::Value;
+pub use pixel::Extent;
+pub use shared::{Names, SharedNames};

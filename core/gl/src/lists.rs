@@ -1,0 +1,328 @@
+//! Display lists. Vertices are compiled to ranges that outlive frames; everything else is kept as
+//! commands, which meet the state of the moment when the list is called (specification 5.4).
+
+use std::sync::Arc;
+
+use afterglow_api::constants::*;
+
+use crate::assemble::{self, PolygonMode};
+use crate::commands::Command;
+use crate::context::Context;
+use crate::emit::Kind;
+use crate::frame::{RetainedRange, SLOTS, VertexLayout};
+use crate::immediate::Immediate;
+use crate::limits;
+use crate::params::Values;
+
+/// One step of a compiled list.
+#[derive(Debug)]
+pub enum ListItem {
+    /// A command.
+    Command(Command),
+    /// Vertices and indices, complete in themselves.
+    Draw(Arc<RetainedRange>, Kind),
+    /// A primitive that depends on the state of the moment: attributes that it inherits halfway, or
+    /// polygons whose edges matter if they are not filled.
+    Primitive(Box<ListPrimitive>),
+    /// A current attribute.
+    Attribute(usize, [f32; 4]),
+    /// glVertex outside of the list's own Begin and End.
+    LooseVertex([f32; 4]),
+    /// glMaterial.
+    Material(u32, u32, Values),
+    /// glCallList.
+    Call(u32),
+    /// glCallLists: the base is that of the moment.
+    Calls(Arc<[u32]>),
+}
+
+/// A primitive as it was sent.
+#[derive(Debug)]
+pub struct ListPrimitive {
+    mode: u32,
+    layout: VertexLayout,
+    words: Vec<u32>,
+    edges: Vec<bool>,
+    /// Slot and number of first vertices that take the current value.
+    late: Vec<(usize, usize)>,
+}
+
+/// A compiled list.
+#[derive(Debug, Default)]
+pub struct List {
+    items: Vec<ListItem>,
+}
+
+/// A list while it is compiled.
+#[derive(Debug)]
+pub struct ListBuilder {
+    name: u32,
+    /// GL_COMPILE_AND_EXECUTE.
+    pub executes: bool,
+    items: Vec<ListItem>,
+    run: Run,
+    /// Attributes given between Begin and End: their last values, current once the primitive is drawn.
+    inside: [Option<[f32; 4]>; SLOTS],
+}
+
+/// Primitives of one kind and layout in a row, which become one range.
+#[derive(Debug, Default)]
+struct Run {
+    shape: Option<(VertexLayout, Kind)>,
+    words: Vec<u32>,
+    indices: Vec<u32>,
+    /// Attributes that are current after the primitives.
+    trailing: Vec<(usize, [f32; 4])>,
+}
+
+impl ListBuilder {
+    /// The name that glNewList was given.
+    pub fn name(&self) -> u32 {
+        self.name
+    }
+
+    /// GL_COMPILE or GL_COMPILE_AND_EXECUTE.
+    pub fn mode(&self) -> u32 {
+        if self.executes { GL_COMPILE_AND_EXECUTE } else { GL_COMPILE }
+    }
+
+    /// Records a command.
+    pub fn push(&mut self, command: Command) {
+        self.item(ListItem::Command(command));
+    }
+
+    fn item(&mut self, item: ListItem) {
+        self.end_run();
+        self.items.push(item);
+    }
+
+    /// Records glVertex outside of Begin and End.
+    pub fn loose_vertex(&mut self, position: [f32; 4]) {
+        self.item(ListItem::LooseVertex(position));
+    }
+
+    /// Records an attribute; between Begin and End it is part of the vertices.
+    pub fn attribute(&mut self, slot: usize, value: [f32; 4], inside: bool) {
+        if inside {
+            self.inside[slot] = Some(value);
+        } else {
+            self.item(ListItem::Attribute(slot, value));
+        }
+    }
+
+    /// Records glMaterial.
+    pub fn material(&mut self, face: u32, pname: u32, values: Values) {
+        self.item(ListItem::Material(face, pname, values));
+    }
+
+    /// Adds assembled vertices.
+    pub fn geometry(&mut self, layout: VertexLayout, kind: Kind, words: &[u32], indices: &[u32]) {
+        if self.run.shape != Some((layout, kind)) {
+            self.end_run();
+            self.run.shape = Some((layout, kind));
+        }
+        let base = (self.run.words.len() / layout.stride().max(1)) as u32;
+        self.run.words.extend_from_slice(words);
+        self.run.indices.extend(indices.iter().map(|i| i + base));
+    }
+
+    fn end_run(&mut self) {
+        let run = std::mem::take(&mut self.run);
+        if let Some((layout, kind)) = run.shape
+            && !run.indices.is_empty()
+        {
+            let range = RetainedRange::new(layout, run.words, run.indices);
+            self.items.push(ListItem::Draw(Arc::new(range), kind));
+        }
+        self.items.extend(run.trailing.into_iter().map(|(slot, value)| ListItem::Attribute(slot, value)));
+    }
+
+    fn primitive(&mut self, mode: u32, immediate: &mut Immediate) {
+        let (layout, late) = (immediate.layout, std::mem::take(&mut immediate.late));
+        let edges = immediate.edges.take().unwrap_or_default();
+        let kind = Kind::of(mode, PolygonMode::Fill);
+        if late.is_empty() && !edges.contains(&false) {
+            let mut indices = Vec::new();
+            assemble::assemble(mode, immediate.count, |i| i as u32, &mut indices);
+            self.geometry(layout, kind, &immediate.words, &indices);
+        } else {
+            let words = immediate.words.clone();
+            self.item(ListItem::Primitive(Box::new(ListPrimitive { mode, layout, words, edges, late })));
+        }
+        for slot in 0..SLOTS {
+            if let Some(value) = self.inside[slot].take() {
+                self.run.trailing.retain(|(s, _)| *s != slot);
+                self.run.trailing.push((slot, value));
+            }
+        }
+    }
+}
+
+impl Context {
+    /// glNewList.
+    pub fn new_list(&mut self, name: u32, mode: u32) {
+        if name == 0 {
+            return self.record_error(GL_INVALID_VALUE);
+        }
+        if mode != GL_COMPILE && mode != GL_COMPILE_AND_EXECUTE {
+            return self.record_error(GL_INVALID_ENUM);
+        }
+        if self.in_begin() || self.list.is_some() {
+            return self.record_error(GL_INVALID_OPERATION);
+        }
+        self.list = Some(Box::new(ListBuilder {
+            name,
+            executes: mode == GL_COMPILE_AND_EXECUTE,
+            items: Vec::new(),
+            run: Run::default(),
+            inside: [None; SLOTS],
+        }));
+    }
+
+    /// glEndList.
+    pub fn end_list(&mut self) {
+        if self.in_begin() {
+            return self.record_error(GL_INVALID_OPERATION);
+        }
+        let Some(mut builder) = self.list.take() else {
+            return self.record_error(GL_INVALID_OPERATION);
+        };
+        builder.end_run();
+        let list = Arc::new(List { items: builder.items });
+        self.shared.lock().lists.insert(builder.name, list);
+    }
+
+    /// glGenLists.
+    pub fn gen_lists(&mut self, range: i32) -> u32 {
+        if self.in_begin() {
+            self.record_error(GL_INVALID_OPERATION);
+            return 0;
+        }
+        if !(0..=limits::GENERATED_NAMES).contains(&range) {
+            self.record_error(GL_INVALID_VALUE);
+            return 0;
+        }
+        self.shared.lock().reserve_lists(range as u32)
+    }
+
+    /// glDeleteLists.
+    pub fn delete_lists(&mut self, first: u32, range: i32) {
+        if self.in_begin() {
+            return self.record_error(GL_INVALID_OPERATION);
+        }
+        if range < 0 {
+            return self.record_error(GL_INVALID_VALUE);
+        }
+        let mut shared = self.shared.lock();
+        let end = u64::from(first) + range as u64;
+        if range as usize > shared.lists.len() {
+            shared.lists.retain(|&name, _| u64::from(name) < first.into() || u64::from(name) >= end);
+        } else {
+            (u64::from(first)..end).for_each(|name| drop(shared.lists.remove(&(name as u32))));
+        }
+    }
+
+    /// glIsList.
+    pub fn is_list(&mut self, name: u32) -> bool {
+        self.shared.lock().lists.contains_key(&name)
+    }
+
+    /// glCallList.
+    pub fn call_list(&mut self, name: u32) {
+        if let Some(list) = &mut self.list {
+            list.item(ListItem::Call(name));
+            if !list.executes {
+                return;
+            }
+        }
+        self.run_list(name);
+    }
+
+    /// glCallLists, the offsets without the list base.
+    pub fn call_lists(&mut self, offsets: &[u32]) {
+        if let Some(list) = &mut self.list {
+            list.item(ListItem::Calls(offsets.into()));
+            if !list.executes {
+                return;
+            }
+        }
+        self.run_lists(offsets);
+    }
+
+    fn run_lists(&mut self, offsets: &[u32]) {
+        for offset in offsets {
+            self.run_list(self.state.list_base.wrapping_add(*offset));
+        }
+    }
+
+    fn run_list(&mut self, name: u32) {
+        if self.list_depth >= limits::LIST_NESTING {
+            return;
+        }
+        let Some(list) = self.shared.lock().lists.get(&name).cloned() else { return };
+        // What is executed is not compiled again into a list that is open.
+        let open = self.list.take();
+        self.list_depth += 1;
+        list.items.iter().for_each(|item| self.run_item(item));
+        self.list_depth -= 1;
+        self.list = open;
+    }
+
+    fn run_item(&mut self, item: &ListItem) {
+        match item {
+            ListItem::Command(_) if self.in_begin() => self.record_error(GL_INVALID_OPERATION),
+            ListItem::Command(command) => self.execute(command),
+            ListItem::Draw(range, kind) => self.run_draw(range, *kind),
+            ListItem::Primitive(primitive) => self.run_primitive(primitive),
+            ListItem::Attribute(slot, value) => self.attribute(*slot, *value),
+            ListItem::LooseVertex(position) => self.vertex(*position),
+            ListItem::Material(face, pname, values) => self.exec_material(*face, *pname, *values),
+            ListItem::Call(name) => self.run_list(*name),
+            ListItem::Calls(offsets) => self.run_lists(offsets),
+        }
+    }
+
+    fn run_draw(&mut self, range: &Arc<RetainedRange>, kind: Kind) {
+        match kind {
+            _ if self.in_begin() => self.record_error(GL_INVALID_OPERATION),
+            // Triangles remember no polygon: drawn unfilled, they show their own edges.
+            Kind::Polygons(_) if self.effective_polygon_mode() != PolygonMode::Fill => {
+                let mode = self.effective_polygon_mode();
+                let mut indices = Vec::new();
+                let corner = |i: usize| range.indices[i];
+                let count = range.indices.len();
+                assemble::assemble_unfilled(GL_TRIANGLES, count, mode, corner, |_| true, &mut indices);
+                self.emit_indexed(range.layout, Kind::Polygons(mode), &range.words, &indices);
+            }
+            _ => self.emit_retained(range, kind),
+        }
+    }
+
+    fn run_primitive(&mut self, primitive: &ListPrimitive) {
+        if self.in_begin() {
+            return self.record_error(GL_INVALID_OPERATION);
+        }
+        let mut words = primitive.words.clone();
+        let stride = primitive.layout.stride();
+        for &(slot, count) in &primitive.late {
+            let (offset, width) = (primitive.layout.offset(slot), primitive.layout.format(slot).words());
+            let value = self.state.current.attributes[slot].map(f32::to_bits);
+            for vertex in words.chunks_exact_mut(stride).take(count) {
+                vertex[offset..offset + width].copy_from_slice(&value[..width]);
+            }
+        }
+        self.emit_primitive(primitive.mode, primitive.layout, &words, Some(&primitive.edges));
+    }
+
+    /// glEnd while a list is compiled.
+    pub(crate) fn end_in_list(&mut self, mode: u32) {
+        let Some(mut list) = self.list.take() else { return };
+        let edges = self.immediate.edges.clone();
+        list.primitive(mode, &mut self.immediate);
+        if list.executes {
+            self.immediate.edges = edges;
+            self.draw_immediate(mode);
+        }
+        self.list = Some(list);
+    }
+}

@@ -1,0 +1,256 @@
+//! What path tracing reads: draws as surfaces that rays meet, lights, and one record of a view's passes.
+//!
+//! Positions and directions are in the world, relative to the camera, unless a name says otherwise. Radiance is
+//! linear RGB in which 1 is what an 8-bit picture shows as white.
+
+use afterglow_layout::{packed_words, shared_struct};
+
+/// State words of a draw: two global ones, three for each of four texture units.
+pub const SURFACE_STATE_WORDS: usize = 14;
+
+shared_struct! {
+    /// A draw of triangles as a surface: geometry by address, fixed-function state as data.
+    pub struct SurfaceDraw {
+        /// Address of vertex 0.
+        pub vertices: u64,
+        /// Address of the first index.
+        pub indices: u64,
+        /// Object to world, the rows of a 3x4 matrix.
+        pub object_to_world: [[f32; 4]; 3],
+        /// Left, bottom, width, height of the viewport in pixels, counted from the window's lower left corner.
+        pub viewport: [f32; 4],
+        /// `StateWords`.
+        pub state: [u32; SURFACE_STATE_WORDS],
+        /// A unit's bindless image in the lower 20 bits and its sampler in the upper 12.
+        pub textures: [u32; 4],
+        /// `VertexLayout`.
+        pub vertex_layout: u32,
+        /// The greatest index that is a vertex; greater ones are taken for it.
+        pub last_vertex: u32,
+        pub triangles: u32,
+        pub transform: u32,
+        pub material: u32,
+        pub environment: u32,
+        pub texgen: u32,
+        pub texture_matrices: u32,
+        pub current: u32,
+        /// Coordinates that GL_CLAMP wraps: 3 bits a unit.
+        pub clamps: u32,
+        /// How light is found for it: a `SURFACE_` constant.
+        pub kind: u32,
+        /// The next draw of the same triangles, blended over this one; its own number at the end of the list.
+        pub next_layer: u32,
+        /// How this draw is blended over the one before it in the list: see `BlendWord`.
+        pub blend: u32,
+        /// The instance mask of rays that start here.
+        pub ray_mask: u32,
+    }
+}
+
+packed_words! {
+    /// How a layer is blended over the surface below it.
+    pub struct BlendWord: "blend", 1 {
+        word 0 {
+            /// 0 if it replaces what is below.
+            enabled: 1,
+            /// `BlendFactor` of the layer's own colour.
+            source: 4,
+            /// `BlendFactor` of the colour below.
+            destination: 4,
+            /// `BlendEquation`.
+            equation: 3,
+        }
+    }
+}
+
+shared_struct! {
+    /// Triangles of one draw within a bottom level: a hit's primitive has the member's number in its upper bits.
+    pub struct MeshMember {
+        /// Index of the [`SurfaceDraw`].
+        pub draw: u32,
+        /// The draw's triangle that is the member's first.
+        pub first_triangle: u32,
+    }
+}
+
+shared_struct! {
+    /// A light source.
+    pub struct LightSource {
+        /// Where it is, or the unit vector to it if it is infinitely far.
+        pub position: [f32; 3],
+        /// Radius of the sphere that shines; of a far light the tangent of its angular radius.
+        pub radius: f32,
+        /// Linear RGB that a facing white surface shows.
+        pub color: [f32; 3],
+        /// 1 if it has a place, 0 if it is infinitely far.
+        pub has_place: u32,
+        /// Constant, linear, quadratic falloff.
+        pub attenuation: [f32; 3],
+        /// Cosine of the spot's cut-off; -1 when it is no spot.
+        pub spot_cos_cutoff: f32,
+        /// Unit vector along which a spot shines.
+        pub spot_axis: [f32; 3],
+        pub spot_exponent: f32,
+    }
+}
+
+shared_struct! {
+    /// All that the passes of one view read, found by its address.
+    pub struct ViewRecord {
+        /// [`FrameRecord`](crate::FrameRecord).
+        pub frame: u64,
+        /// [`SurfaceDraw`]s.
+        pub draws: u64,
+        /// [`MeshMember`]s.
+        pub members: u64,
+        /// [`LightSource`]s.
+        pub lights: u64,
+        /// The top level.
+        pub world: u64,
+        /// [`SurfaceTexel`]s, one a pixel, rows from the top.
+        pub surfaces: u64,
+        /// [`LightTexel`]s.
+        pub light: u64,
+        /// Indirect light that composition reads: four f32 a pixel.
+        pub indirect: u64,
+        /// [`ExposureSum`]s, one a workgroup.
+        pub sums: u64,
+        /// [`Exposure`].
+        pub exposure: u64,
+        /// Pixels.
+        pub width: u32,
+        pub height: u32,
+        /// Bindless index of the visibility texture.
+        pub visibility: u32,
+        /// Bindless index of the colour as a storage image.
+        pub color: u32,
+        pub light_count: u32,
+        /// Samples a pixel of this frame.
+        pub samples: u32,
+        /// Samples a pixel that [`ViewRecord::light`] holds already.
+        pub accumulated: u32,
+        pub seed: u32,
+        /// Radiance of the sky.
+        pub sky: [f32; 3],
+        /// How far moving things darken surfaces with baked light.
+        pub contact_reach: f32,
+        /// Ambient light of the program.
+        pub ambient: [f32; 3],
+        /// What is painted: a `PAINT_` constant.
+        pub paint: u32,
+        /// The world's tangent of a pixel, for texture levels of secondary rays.
+        pub pixel_spread: f32,
+        /// 1 if something moves that could darken baked surfaces.
+        pub has_movers: u32,
+        /// Workgroups of the exposure's sums.
+        pub sum_count: u32,
+        /// How much of the way to its new value exposure goes: 1 at once.
+        pub exposure_rate: f32,
+    }
+}
+
+shared_struct! {
+    /// What a pixel shows, packed.
+    pub struct SurfaceTexel {
+        /// Where its rays start.
+        pub start: [f32; 3],
+        /// Shading normal, octahedral, two snorm16.
+        pub normal: u32,
+        /// Geometric normal towards the viewer, likewise.
+        pub geometric: u32,
+        /// Albedo, sRGB in three bytes; in the fourth how much fog leaves of it.
+        pub albedo: u32,
+        /// Specular colour, sRGB in three bytes, and shininess, 255 being 128.
+        pub specular: u32,
+        /// Emission, sRGB in three bytes, a `SURFACE_` constant in four bits, and the mask of rays from here.
+        pub emission: u32,
+    }
+}
+
+shared_struct! {
+    /// Light of a pixel before it meets albedo: means over samples.
+    pub struct LightTexel {
+        /// Irradiance over pi straight from light sources.
+        pub direct: [f32; 3],
+        /// The same by way of other surfaces and the sky.
+        pub indirect: [f32; 3],
+        /// Radiance of highlights.
+        pub specular: [f32; 3],
+    }
+}
+
+shared_struct! {
+    /// Sums over pixels for exposure: luminance traced, as the program has it, and weights; lit surfaces first,
+    /// moving ones among baked surfaces second.
+    pub struct ExposureSum {
+        pub traced: [f32; 2],
+        pub program: [f32; 2],
+    }
+}
+
+shared_struct! {
+    /// What light is multiplied by, kept from frame to frame.
+    pub struct Exposure {
+        /// Of lit surfaces, and of moving ones among baked surfaces.
+        pub scale: [f32; 2],
+    }
+}
+
+shared_struct! {
+    /// Push constants of the passes of a view.
+    pub struct ViewPush {
+        /// Address of the [`ViewRecord`].
+        pub view: u64,
+        /// Where the pass reads and writes, if it has more than one place to.
+        pub source: u64,
+        pub target: u64,
+        /// Pixels between the taps of the filter.
+        pub step: u32,
+        pub padding: u32,
+    }
+}
+
+/// How light is found for a pixel, as `SurfaceDraw::kind` holds it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(u32)]
+pub enum SurfaceKind {
+    /// Nothing traced.
+    None = 0,
+    /// By the program's lights: albedo times irradiance.
+    Lit = 1,
+    /// The program's own colour, darkened by what the lights do not reach: unlit among lit surfaces.
+    Catcher = 2,
+    /// The program's own colour is its light, darkened by moving things nearby.
+    Baked = 3,
+    /// Something that moves among baked surfaces: lit by them.
+    BakedMover = 4,
+}
+
+/// What pictures show for debugging, as `ViewRecord::paint` holds it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(u32)]
+pub enum Paint {
+    /// The picture itself.
+    #[default]
+    Picture = 0,
+    /// How light is found, a colour a [`SurfaceKind`].
+    Kind = 1,
+    /// Shading normals.
+    Normal = 2,
+    /// Albedo.
+    Albedo = 3,
+    /// Direct light.
+    Direct = 4,
+    /// Indirect light.
+    Indirect = 5,
+}
+
+/// Bits of a hit's primitive below the member's number.
+pub const MEMBER_SHIFT: u32 = 20;
+
+/// Instances that never move.
+pub const MASK_STATIC: u32 = 1;
+/// Instances that move or change.
+pub const MASK_MOVING: u32 = 2;
+/// The first-person weapon.
+pub const MASK_VIEW_MODEL: u32 = 4;

@@ -1,0 +1,17 @@
+//! What can go wrong while a frame is executed.
+
+use afterglow_frame_graph::GraphError;
+use afterglow_gpu::GpuError;
+
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// The device, or the memory that it has, did not serve.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The frame's passes make no sense together: a mistake in the renderer.
+    #[error("the frame graph: {0}")]
+    Graph(#[from] GraphError),
+    /// Asked for something after the device had failed.
+    #[error("the device has failed before")]
+    Failed,
+}

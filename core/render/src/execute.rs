@@ -1,0 +1,267 @@
+//! One frame from its operations to a submission.
+
+use afterglow_gl::frame::Frame;
+use afterglow_gpu::{Commands, GpuError};
+
+use crate::error::RenderError;
+use crate::graph::{Bound, record_barriers};
+use crate::passes::accumulate::Accumulated;
+use crate::passes::copy::{self, FlipRecords};
+use crate::passes::raster::{self, RasterFrame, RasterPass};
+use crate::passes::readback::{Question, Readback};
+use crate::passes::{pixels, transfers};
+use crate::plan::{Plan, Planner, Step};
+use crate::rectangles::PixelStore;
+use crate::renderer::Renderer;
+use crate::report::FrameReport;
+use crate::retained::RangeCopy;
+use crate::schedule::{Lasting, Schedule, Sizes, Work, schedule};
+use crate::tables;
+
+/// What is ready to be recorded.
+struct Prepared {
+    plan: Plan,
+    schedule: Schedule,
+    /// Address of the frame's record.
+    address: u64,
+    range_copies: Vec<RangeCopy>,
+    /// Of each batch of copies to textures.
+    flips: Vec<FlipRecords>,
+    readback: Option<Readback>,
+}
+
+impl Renderer {
+    /// Makes the window as large as the frame says.
+    pub(crate) fn resize(&mut self, frame: &Frame) -> Result<(), GpuError> {
+        let most = self.gpu.limits().max_image_dimension2_d;
+        let size = [frame.size.0, frame.size.1].map(|side| side.clamp(1, most));
+        if size != self.target.size {
+            self.target = self.target.resized(&self.gpu, size)?;
+        }
+        Ok(())
+    }
+
+    /// Executes a frame, and reads what `question` asks for.
+    pub(crate) fn execute_and_read(
+        &mut self,
+        frame: &Frame,
+        question: Option<Question>,
+    ) -> Result<Option<Readback>, RenderError> {
+        self.collect(self.current)?;
+        self.resize(frame)?;
+        self.slots[self.current].arena.reset();
+        self.ranges.begin_frame();
+        self.raster.begin_frame(frame);
+        let prepared = self.prepare(frame, question)?;
+        let recorded = self.record(frame, &prepared);
+        if recorded.is_err() {
+            let pool = &mut self.slots[self.current].pool;
+            self.raster.queries.abandon(pool);
+        }
+        recorded?;
+        self.note(frame, &prepared);
+        self.advance();
+        for image in &prepared.plan.dropped {
+            self.textures.remove(&self.table, *image);
+        }
+        Ok(prepared.readback)
+    }
+
+    /// Plans the frame, and uploads what it needs.
+    fn prepare(
+        &mut self,
+        frame: &Frame,
+        question: Option<Question>,
+    ) -> Result<Prepared, RenderError> {
+        let size = self.target.size;
+        let arena = &mut self.slots[self.current].arena;
+        let planner = Planner {
+            textures: &mut self.textures,
+            table: &self.table,
+            arena,
+            size,
+        };
+        let plan = planner.plan(frame)?;
+        self.reserve(frame, &plan)?;
+        let arena = &mut self.slots[self.current].arena;
+        let store = PixelStore {
+            address: self.store.address(),
+            has_depth24: self.target.depth_format.maximum() != 0,
+        };
+        self.rectangles.prepare(frame, size, store, arena)?;
+        let records = &self.rectangles.records;
+        let (address, range_copies) =
+            tables::upload(frame, records, size, arena, &mut self.ranges, &mut self.scratch)?;
+        let flip = |batch| copy::prepare(batch, &self.store, arena);
+        let flips = plan.batches.iter().map(flip).collect::<Result<_, _>>()?;
+        let lasting = Lasting {
+            textures: self.texture_state,
+            geometry: self.geometry_state,
+            store: self.store.state,
+            accumulation: self.accumulator.state,
+        };
+        let sizes = Sizes {
+            store: self.store.bytes(),
+            accumulation: self.accumulator.bytes(),
+        };
+        let has_first = !plan.defined.is_empty()
+            || !range_copies.is_empty()
+            || matches!(plan.steps.first(), Some(Step::Transfers(range)) if !range.is_empty());
+        let question = question.as_ref();
+        let schedule =
+            schedule(&plan, frame, &self.target, &lasting, &sizes, has_first, question)?;
+        let readback = question.map(|question| Readback::new(&self.gpu, *question));
+        Ok(Prepared {
+            plan,
+            schedule,
+            address,
+            range_copies,
+            flips,
+            readback: readback.transpose()?,
+        })
+    }
+
+    /// Makes room for what passes leave to the next ones.
+    fn reserve(&mut self, frame: &Frame, plan: &Plan) -> Result<(), GpuError> {
+        let size = self.target.size;
+        let mut bytes = plan.batches.iter().map(copy::store_bytes).max().unwrap_or(0);
+        for step in &plan.steps {
+            let needed = match step {
+                Step::ReadPixels(operation) => pixels::store_bytes(frame, *operation, size),
+                Step::Accumulate(operation) => {
+                    self.accumulator.reserve(size)?;
+                    Accumulated::of(frame, *operation, size).map_or(0, |item| item.store_bytes())
+                }
+                Step::Transfers(_) | Step::Raster(_) | Step::Copy(_) => 0,
+            };
+            bytes = bytes.max(needed);
+        }
+        self.store.reserve(bytes)
+    }
+
+    /// Records and submits; the states of what lives longer than the frame are those that it leaves.
+    fn record(&mut self, frame: &Frame, prepared: &Prepared) -> Result<(), RenderError> {
+        let gpu = self.gpu.clone();
+        let recording = gpu.record()?;
+        if let Some(timer) = &mut self.slots[self.current].timer {
+            timer.restart(&recording);
+        }
+        let graph = &prepared.schedule.graph;
+        for step in graph.steps() {
+            record_barriers(&recording, step.barriers, &self.bound(prepared));
+            let name = graph.pass_name(step.pass).unwrap_or_default();
+            let slot = &mut self.slots[self.current];
+            slot.report.add_pass(name);
+            let scope = slot.timer.as_mut().map(|timer| timer.begin(&recording, name));
+            let work = &prepared.schedule.work[step.pass.index()];
+            self.work(&recording, work, frame, prepared)?;
+            let slot = &mut self.slots[self.current];
+            if let (Some(timer), Some(scope)) = (&mut slot.timer, scope) {
+                timer.end(&recording, scope);
+            }
+        }
+        self.slots[self.current].submission = Some(recording.submit()?);
+        self.keep_states(&prepared.schedule);
+        Ok(())
+    }
+
+    /// What the graph's resources are, in the order of declaration.
+    fn bound(&self, prepared: &Prepared) -> [Bound<'_>; 6] {
+        let resources = &prepared.schedule.resources;
+        let mut bound = [Bound::Memory; 6];
+        bound[resources.color.index()] = Bound::Image(&self.target.color);
+        bound[resources.depth.index()] = Bound::Image(&self.target.depth);
+        bound
+    }
+
+    fn keep_states(&mut self, schedule: &Schedule) {
+        let resources = &schedule.resources;
+        let keep = |state: &mut afterglow_frame_graph::ResourceState, resource| {
+            *state = schedule.graph.final_state(resource).unwrap_or(*state);
+        };
+        keep(&mut self.target.color_state, resources.color);
+        keep(&mut self.target.depth_state, resources.depth);
+        keep(&mut self.texture_state, resources.textures);
+        keep(&mut self.geometry_state, resources.geometry);
+        keep(&mut self.store.state, resources.store);
+        keep(&mut self.accumulator.state, resources.accumulation);
+    }
+
+    fn work(
+        &mut self,
+        commands: &Commands<'_>,
+        work: &Work,
+        frame: &Frame,
+        prepared: &Prepared,
+    ) -> Result<(), GpuError> {
+        let plan = &prepared.plan;
+        let (target, textures, store) = (&self.target, &self.textures, &self.store);
+        match work {
+            Work::First(range) => {
+                transfers::record_first(commands, plan, textures, &prepared.range_copies);
+                transfers::record(commands, &plan.transfers[range.clone()], textures);
+            }
+            Work::Transfers(range) => {
+                transfers::record(commands, &plan.transfers[range.clone()], textures);
+            }
+            Work::Raster(step) => {
+                let mut pass = RasterPass {
+                    commands,
+                    input: RasterFrame {
+                        gpu: &self.gpu,
+                        frame,
+                        target,
+                        textures,
+                        table: &self.table,
+                        address: prepared.address,
+                        draws: &self.scratch.commands,
+                        rectangles: &self.rectangles,
+                    },
+                    state: &mut self.raster,
+                    pool: &mut self.slots[self.current].pool,
+                    bound: raster::Bound::default(),
+                };
+                pass.record(step)?;
+            }
+            Work::CopyRead(batch) => {
+                copy::record_read(commands, target, &plan.batches[*batch], store);
+            }
+            Work::CopyFlip(batch) => {
+                let records = prepared.flips[*batch];
+                self.flip
+                    .record(commands, target, &plan.batches[*batch], records);
+            }
+            Work::CopyWrite(batch) => {
+                copy::record_write(commands, &plan.batches[*batch], store, textures);
+            }
+            Work::ReadPixels(operation) => {
+                pixels::record_read(commands, frame, *operation, target, store);
+            }
+            Work::AccumulateRead(item) => item.record_read(commands, target, store),
+            Work::Accumulate(item) => self.accumulator.record(commands, item, store),
+            Work::AccumulateWrite(item) => item.record_write(commands, target, store),
+            Work::ReadBack => {
+                if let Some(readback) = &prepared.readback {
+                    readback.record(commands, target, textures);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts what the frame took.
+    fn note(&mut self, frame: &Frame, _prepared: &Prepared) {
+        let slot = &mut self.slots[self.current];
+        let passes = std::mem::take(&mut slot.report.passes);
+        slot.report = FrameReport {
+            index: self.swaps,
+            passes,
+            draws: self.scratch.commands.len(),
+            indices: frame.draws().map(|(_, draw)| u64::from(draw.index_count)).sum(),
+            uploaded_bytes: slot.arena.bytes(),
+            pipelines: self.raster.pipelines.len(),
+            textures: self.textures.len(),
+            retained_ranges: self.ranges.len(),
+        };
+    }
+}

@@ -1,0 +1,39 @@
+//! The renderer: executes the frames that a context emits.
+//!
+//! A frame's operations are sorted into steps (`plan`), the steps declared as passes of the frame graph (`schedule`),
+//! and the passes recorded (`execute`), one file a pass in `passes`. In `raster` mode the result is what OpenGL 1.5
+//! defines.
+
+mod bindings;
+mod error;
+mod execute;
+mod graph;
+mod numbers;
+mod overlaps;
+mod passes;
+mod pipeline_state;
+mod pipelines;
+mod plan;
+mod queries;
+mod rectangles;
+mod renderer;
+mod report;
+mod retained;
+mod samplers;
+mod schedule;
+mod slot;
+mod sorter;
+mod store;
+mod tables;
+mod target;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
+mod textures;
+mod uploads;
+mod window;
+
+pub use error::RenderError;
+pub use renderer::{RenderOptions, Renderer};
+pub use report::{FrameReport, PassReport};

@@ -1,0 +1,58 @@
+//! How a renderer traces.
+
+use afterglow_records::Paint;
+use afterglow_scene::Class;
+use glam::Vec3;
+
+/// What a frame becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub enum Mode {
+    /// What OpenGL 1.5 defines.
+    #[default]
+    Raster,
+    /// The same with the world's light traced.
+    Pathtrace,
+}
+
+/// Which traced draws are displaced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Displaced {
+    /// The draw of this number among a frame's draws, in the program's order.
+    Draw(u32),
+    /// All draws of a class.
+    Class(Class),
+}
+
+/// How to trace.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct PathtraceOptions {
+    /// Samples a pixel and frame, at least 1.
+    pub spp: u32,
+    /// Of all randomness: equal seeds give equal pictures.
+    pub seed: u32,
+    /// Smooth indirect light where samples are few.
+    pub filter: bool,
+    /// Go on with the last frame's samples while nothing changes.
+    pub accumulate: bool,
+    /// What the picture shows.
+    pub paint: Paint,
+    /// Moves the light of this number by so much, world units.
+    pub move_light: Option<(usize, Vec3)>,
+    /// Moves what rays meet of a draw by so much, world units. What the camera sees stays where the program drew it.
+    pub move_draw: Option<(Displaced, Vec3)>,
+}
+
+impl Default for PathtraceOptions {
+    fn default() -> Self {
+        Self {
+            spp: 2,
+            seed: 0,
+            filter: true,
+            accumulate: true,
+            paint: Paint::Picture,
+            move_light: None,
+            move_draw: None,
+        }
+    }
+}

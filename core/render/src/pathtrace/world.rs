@@ -1,0 +1,267 @@
+//! What rays meet: this frame's traced draws as instances of meshes.
+//!
+//! A draw of a retained range is a mesh of its own, built once. Other draws change, or are sent anew with every
+//! frame: those that share a matrix are one mesh, built again when any of them has changed.
+
+use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
+use afterglow_bvh::{Instance, TriangleAttributes, build_tlas};
+use afterglow_gl::frame::{Draw, Frame, VertexSource};
+use afterglow_gpu::{Gpu, GpuError};
+use afterglow_records::{MEMBER_SHIFT, MeshMember};
+use glam::{DVec3, Mat4};
+use hashbrown::HashMap;
+use xxhash_rust::xxh3::Xxh3;
+
+use super::geometry::{GeometryReader, Triangles};
+use super::meshes::Meshes;
+use crate::uploads::UploadArena;
+
+/// Triangles of a member, and members of a mesh, that a hit's primitive can name.
+const MOST_TRIANGLES: u32 = 1 << MEMBER_SHIFT;
+const MOST_MEMBERS: usize = 1 << (32 - MEMBER_SHIFT);
+
+/// A traced draw.
+#[derive(Debug, Clone)]
+pub(crate) struct Traced<'a> {
+    /// Its number among the frame's surfaces.
+    pub(crate) surface: u32,
+    pub(crate) draw: &'a Draw,
+    pub(crate) triangles: Triangles,
+    pub(crate) model: Mat4,
+    pub(crate) mask: u8,
+    pub(crate) is_alpha_tested: bool,
+}
+
+/// The top level and what its hits are numbered by, on the device.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct World {
+    pub(crate) tlas: u64,
+    pub(crate) members: u64,
+    pub(crate) instances: u32,
+}
+
+/// Draws that make one mesh.
+struct Group {
+    model: Mat4,
+    mask: u8,
+    is_lasting: bool,
+    /// Numbers among the traced draws.
+    draws: Vec<usize>,
+    members: usize,
+}
+
+/// What groups are found by: the matrix's bits and the mask; the last number counts groups that are full.
+type GroupKey = ([u32; 16], u8, usize);
+
+/// Keeps meshes from frame to frame.
+pub(crate) struct WorldBuilder {
+    meshes: Meshes,
+    pub(crate) geometry: GeometryReader,
+}
+
+impl WorldBuilder {
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self {
+            meshes: Meshes::new(gpu),
+            geometry: GeometryReader::default(),
+        }
+    }
+
+    pub(crate) fn begin_frame(&mut self) {
+        self.meshes.begin_frame();
+        self.geometry.begin_frame();
+    }
+
+    pub(crate) fn meshes(&self) -> &Meshes {
+        &self.meshes
+    }
+
+    /// Builds the world as seen from `origin`, in world space.
+    pub(crate) fn build(
+        &mut self,
+        frame: &Frame,
+        traced: &[Traced<'_>],
+        origin: DVec3,
+        arena: &mut UploadArena,
+    ) -> Result<World, GpuError> {
+        let mut members = Vec::new();
+        let mut instances = Vec::new();
+        for group in groups(traced) {
+            let content = content_of(&group, traced);
+            if !self.meshes.has(content) {
+                self.build_mesh(frame, &group, traced, content, arena)?;
+            }
+            let Some(mesh) = self.meshes.get(content) else { continue };
+            instances.push(Instance {
+                object_to_world: relative(&group.model, origin),
+                blas: mesh.address,
+                bounds: mesh.bounds,
+                id: members.len() as u32,
+                mask: group.mask,
+                flags: 0,
+            });
+            members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
+        }
+        let tlas = match build_tlas(&instances) {
+            Ok(tlas) => tlas,
+            Err(error) => {
+                tracing::warn!("rays meet nothing: {error}");
+                members.clear();
+                build_tlas(&[]).unwrap_or_else(|_| unreachable!("no instances are not too many"))
+            }
+        };
+        Ok(World {
+            tlas: self.meshes.upload_once(&tlas.words, arena)?,
+            members: arena.push_table(&members)?.address,
+            instances: tlas.instance_count,
+        })
+    }
+
+    fn build_mesh(
+        &mut self,
+        frame: &Frame,
+        group: &Group,
+        traced: &[Traced<'_>],
+        content: u64,
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        let mut corners = Vec::new();
+        let mut attributes = Vec::new();
+        let mut first_member = 0;
+        for &index in &group.draws {
+            let traced = &traced[index];
+            let mut range = traced.triangles.corners.clone();
+            if range.is_empty() {
+                range = self.geometry.corners(frame, traced.draw);
+            }
+            corners.extend_from_slice(&self.geometry.corners[range]);
+            let flags = if traced.is_alpha_tested { FLAG_ALPHA_TESTED } else { 0 };
+            attributes.extend((0..traced.triangles.count).map(|triangle| TriangleAttributes {
+                primitive: (first_member + triangle / MOST_TRIANGLES) << MEMBER_SHIFT
+                    | triangle % MOST_TRIANGLES,
+                flags,
+            }));
+            first_member += member_count(traced) as u32;
+        }
+        self.meshes.build(content, &corners, &attributes, group.is_lasting, arena)
+    }
+}
+
+/// A model matrix, its translation relative to `origin`: rows of a 3x4 matrix.
+pub(crate) fn relative(model: &Mat4, origin: DVec3) -> [[f32; 4]; 3] {
+    let translation = model.w_axis.truncate().as_dvec3() - origin;
+    std::array::from_fn(|row| {
+        let linear = model.row(row).truncate();
+        [linear.x, linear.y, linear.z, translation[row] as f32]
+    })
+}
+
+fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut open: HashMap<GroupKey, usize> = HashMap::new();
+    for (index, traced) in traced.iter().enumerate() {
+        let members = member_count(traced);
+        if traced.triangles.count == 0 || members > MOST_MEMBERS {
+            continue;
+        }
+        let new = Group {
+            model: traced.model,
+            mask: traced.mask,
+            is_lasting: matches!(traced.draw.source, VertexSource::Retained { .. }),
+            draws: vec![index],
+            members,
+        };
+        if new.is_lasting {
+            groups.push(new);
+            continue;
+        }
+        let key = (traced.model.to_cols_array().map(f32::to_bits), traced.mask, 0);
+        match open.get(&key).map(|&group| &mut groups[group]) {
+            Some(group) if group.members + members <= MOST_MEMBERS => {
+                group.draws.push(index);
+                group.members += members;
+            }
+            _ => {
+                open.insert(key, groups.len());
+                groups.push(new);
+            }
+        }
+    }
+    groups
+}
+
+/// What a mesh is made of: its draws' triangles in order.
+fn content_of(group: &Group, traced: &[Traced<'_>]) -> u64 {
+    let mut hasher = Xxh3::new();
+    for &index in &group.draws {
+        let traced = &traced[index];
+        hasher.update(&traced.triangles.hash.to_le_bytes());
+        hasher.update(&traced.triangles.count.to_le_bytes());
+        hasher.update(&[u8::from(traced.is_alpha_tested)]);
+    }
+    hasher.digest()
+}
+
+fn member_count(traced: &Traced<'_>) -> usize {
+    traced.triangles.count.div_ceil(MOST_TRIANGLES) as usize
+}
+
+fn members_of(traced: &Traced<'_>) -> impl Iterator<Item = MeshMember> + use<> {
+    let surface = traced.surface;
+    (0..member_count(traced) as u32).map(move |member| MeshMember {
+        draw: surface,
+        first_triangle: member * MOST_TRIANGLES,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{FrameBuilder, RED, gpu};
+
+    /// Two draws under one matrix and one under another, as a frame.
+    fn frame(z: f32) -> Frame {
+        let mut builder = FrameBuilder::new(8, 8);
+        builder.fill(0.0, RED).fill(z, RED).fill(0.5, RED);
+        builder.frame
+    }
+
+    fn world(builder: &mut WorldBuilder, frame: &Frame) -> (World, usize) {
+        builder.begin_frame();
+        let mut arena = UploadArena::new(&gpu());
+        let traced: Vec<_> = frame
+            .draws()
+            .enumerate()
+            .map(|(number, (_, draw))| Traced {
+                surface: number as u32,
+                draw,
+                triangles: builder.geometry.read(frame, draw),
+                model: match number {
+                    2 => Mat4::from_scale(glam::Vec3::splat(2.0)),
+                    _ => Mat4::IDENTITY,
+                },
+                mask: 1,
+                is_alpha_tested: false,
+            })
+            .collect();
+        let world = builder.build(frame, &traced, DVec3::ZERO, &mut arena).unwrap();
+        (world, builder.meshes().built)
+    }
+
+    #[test]
+    fn draws_of_one_matrix_are_one_mesh_that_is_built_when_it_changes() {
+        let mut builder = WorldBuilder::new(&gpu());
+        let (first, built) = world(&mut builder, &frame(0.25));
+        assert_eq!((first.instances, built), (2, 6));
+        assert_eq!(world(&mut builder, &frame(0.25)).1, 0);
+        assert_eq!(world(&mut builder, &frame(0.75)).1, 4);
+    }
+
+    #[test]
+    fn translations_are_relative_to_the_origin() {
+        let model = Mat4::from_translation(glam::Vec3::new(1e6, 2.0, 3.0));
+        let rows = relative(&model, DVec3::new(1e6 - 0.25, 0.0, 0.0));
+        assert_eq!(rows[0], [1.0, 0.0, 0.0, 0.25]);
+        assert_eq!(rows[2], [0.0, 0.0, 1.0, 3.0]);
+    }
+}

@@ -1,0 +1,240 @@
+//! Frames in, pixels out.
+
+use afterglow_gl::backend::{Backend, End, Reply, Request};
+use afterglow_gl::frame::{Frame, PixelBuffer, Rect};
+use afterglow_gpu::{BindlessSizes, BindlessTable, Gpu, GpuError};
+
+use crate::error::RenderError;
+use crate::passes::accumulate::Accumulator;
+use crate::passes::copy::Flip;
+use crate::passes::raster::RasterState;
+use crate::passes::readback::{Asked, Question};
+use crate::rectangles::Rectangles;
+use crate::report::FrameReport;
+use crate::retained::RetainedRanges;
+use crate::slot::Slot;
+use crate::store::Store;
+use crate::tables::Scratch;
+use crate::target::Target;
+use crate::textures::Textures;
+
+/// Frames that the device may still be working on while the next one is recorded.
+const FRAMES_IN_FLIGHT: usize = 2;
+/// Empty frames that are kept to be filled again.
+const RECYCLED_FRAMES: usize = 3;
+
+/// How to render.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct RenderOptions {
+    /// Take the device's time of each pass, for [`Renderer::frame_report`].
+    pub timing: bool,
+}
+
+/// Executes the frames of one window.
+pub struct Renderer {
+    pub(crate) gpu: Gpu,
+    pub(crate) target: Target,
+    pub(crate) textures: Textures,
+    pub(crate) ranges: RetainedRanges,
+    pub(crate) raster: RasterState,
+    pub(crate) flip: Flip,
+    pub(crate) accumulator: Accumulator,
+    pub(crate) store: Store,
+    pub(crate) texture_state: afterglow_frame_graph::ResourceState,
+    pub(crate) geometry_state: afterglow_frame_graph::ResourceState,
+    pub(crate) slots: [Slot; FRAMES_IN_FLIGHT],
+    /// The slot of the frame that is being recorded, or else of the next one.
+    pub(crate) current: usize,
+    pub(crate) scratch: Scratch,
+    pub(crate) rectangles: Rectangles,
+    /// Buffer swaps so far.
+    pub(crate) swaps: u64,
+    pub(crate) report: FrameReport,
+    recycled: Vec<Frame>,
+    has_failed: bool,
+    /// Dropped last of all: slots of the table are given back to it.
+    pub(crate) table: BindlessTable,
+}
+
+impl Renderer {
+    /// A renderer with a window of one pixel; the first frame resizes it.
+    pub fn new(gpu: &Gpu, options: &RenderOptions) -> Result<Self, RenderError> {
+        let table = gpu.create_bindless_table(BindlessSizes::default())?;
+        let slot = || Slot::new(gpu, options.timing);
+        Ok(Self {
+            gpu: gpu.clone(),
+            target: Target::new(gpu, [1, 1])?,
+            textures: Textures::new(gpu, &table)?,
+            ranges: RetainedRanges::new(gpu),
+            raster: RasterState::new(gpu, &table)?,
+            flip: Flip::new(gpu)?,
+            accumulator: Accumulator::new(gpu)?,
+            store: Store::new(gpu),
+            texture_state: afterglow_frame_graph::ResourceState::SETTLED,
+            geometry_state: afterglow_frame_graph::ResourceState::SETTLED,
+            slots: [slot()?, slot()?],
+            current: 0,
+            scratch: Scratch::default(),
+            rectangles: Rectangles::default(),
+            swaps: 0,
+            report: FrameReport::default(),
+            recycled: Vec::new(),
+            has_failed: false,
+            table,
+        })
+    }
+
+    /// The device.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// Width and height of the window in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.target.size
+    }
+
+    /// Executes a frame's operations, and waits for nothing.
+    ///
+    /// # Errors
+    /// If the device fails; then the frame, and what comes after it, may be lost.
+    pub fn execute(&mut self, frame: &Frame) -> Result<(), RenderError> {
+        self.execute_and_read(frame, None).map(|_| ())
+    }
+
+    /// Executes a frame's operations and answers a question about the result.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn execute_and_answer(
+        &mut self,
+        frame: &Frame,
+        request: &Request,
+    ) -> Result<Reply, RenderError> {
+        self.resize(frame)?;
+        let asked = Question::of(request, frame, self.target.size, &self.textures);
+        let question = match &asked {
+            Asked::Read(question) => Some(*question),
+            Asked::Answered(_) => None,
+        };
+        let readback = self.execute_and_read(frame, question)?;
+        self.finish()?;
+        Ok(match (asked, readback, request) {
+            (_, _, Request::Query(id)) => Reply::Samples(self.raster.queries.samples(*id)),
+            (Asked::Answered(reply), _, _) => reply,
+            (Asked::Read(_), Some(readback), _) => {
+                readback.reply(self.target.depth_format, &self.textures)?
+            }
+            (Asked::Read(_), None, _) => Reply::Unavailable,
+        })
+    }
+
+    /// The window's colours: four bytes a pixel, the highest row first.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn read_color(&mut self) -> Result<Vec<u8>, RenderError> {
+        let [width, height] = self.target.size;
+        let rect = Rect {
+            x: 0,
+            y: 0,
+            width: width as i32,
+            height: height as i32,
+        };
+        let question = Question::Window {
+            buffer: PixelBuffer::Color,
+            rect,
+            clipped: rect,
+        };
+        let frame = Frame {
+            size: (width, height),
+            ..Frame::default()
+        };
+        let readback = self.execute_and_read(&frame, Some(question))?;
+        self.finish()?;
+        readback.map_or_else(|| Ok(Vec::new()), |readback| Ok(readback.bytes()?))
+    }
+
+    /// Waits until the device has executed everything.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn finish(&mut self) -> Result<(), RenderError> {
+        for offset in 0..FRAMES_IN_FLIGHT {
+            // The oldest frame first, so that queries add up in order.
+            self.collect((self.current + offset) % FRAMES_IN_FLIGHT)?;
+        }
+        Ok(())
+    }
+
+    /// What the last frame cost. Waits for it.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn frame_report(&mut self) -> Result<&FrameReport, RenderError> {
+        self.finish()?;
+        Ok(&self.report)
+    }
+
+    /// Whether the device has failed; then nothing is executed any more.
+    pub fn has_failed(&self) -> bool {
+        self.has_failed
+    }
+
+    /// Waits for the frame that uses a slot.
+    pub(crate) fn collect(&mut self, slot: usize) -> Result<(), GpuError> {
+        let queries = &mut self.raster.queries;
+        self.slots[slot].collect(&self.gpu, queries, &mut self.report)
+    }
+
+    /// Moves on to the slot of the next submission.
+    pub(crate) fn advance(&mut self) {
+        self.current = (self.current + 1) % FRAMES_IN_FLIGHT;
+    }
+
+    fn recycle_frame(&mut self, mut frame: Frame) {
+        if self.recycled.len() < RECYCLED_FRAMES {
+            frame.clear();
+            self.recycled.push(frame);
+        }
+    }
+
+    /// Runs `work` unless the device has failed; a failure is logged, once.
+    fn unless_failed<T>(
+        &mut self,
+        work: impl FnOnce(&mut Self) -> Result<T, RenderError>,
+    ) -> Option<T> {
+        if self.has_failed {
+            return None;
+        }
+        match work(self) {
+            Ok(value) => Some(value),
+            Err(error) => {
+                tracing::error!("the renderer gives up: {error}");
+                self.has_failed = true;
+                None
+            }
+        }
+    }
+}
+
+impl Backend for Renderer {
+    fn submit(&mut self, frame: Frame, end: End) {
+        self.unless_failed(|renderer| renderer.execute(&frame));
+        if end == End::Swap {
+            self.swaps += 1;
+        }
+        self.recycle_frame(frame);
+    }
+
+    fn answer(&mut self, so_far: Frame, request: Request) -> Reply {
+        let reply = self.unless_failed(|renderer| renderer.execute_and_answer(&so_far, &request));
+        self.recycle_frame(so_far);
+        reply.unwrap_or(Reply::Unavailable)
+    }
+
+    fn recycle(&mut self) -> Frame {
+        self.recycled.pop().unwrap_or_default()
+    }
+}

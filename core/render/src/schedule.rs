@@ -1,0 +1,269 @@
+//! A frame's plan as passes of the frame graph.
+
+use std::ops::Range;
+
+use afterglow_frame_graph::{
+    Access, CompiledGraph, GraphBuilder, GraphError, PassKind, ResourceDesc, ResourceId,
+    ResourceState,
+};
+use afterglow_gl::frame::{Frame, Operation, PixelBuffer};
+
+use crate::passes::accumulate::Accumulated;
+use crate::passes::readback::Question;
+use crate::plan::{Plan, RasterStep, Step};
+use crate::target::Target;
+
+/// What a pass records.
+#[derive(Debug, Clone)]
+pub(crate) enum Work {
+    /// The frame's new images, its early texels, and its new retained ranges.
+    First(Range<usize>),
+    /// A part of the plan's transfers.
+    Transfers(Range<usize>),
+    Raster(RasterStep),
+    /// A batch of copies to textures, in three steps.
+    CopyRead(usize),
+    CopyFlip(usize),
+    CopyWrite(usize),
+    /// The pixels of this operation (glCopyPixels).
+    ReadPixels(usize),
+    AccumulateRead(Accumulated),
+    Accumulate(Accumulated),
+    AccumulateWrite(Accumulated),
+    ReadBack,
+}
+
+/// How the last frame left what lives longer than a frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lasting {
+    /// Texture images, which keep their layout, as if they were one buffer.
+    pub(crate) textures: ResourceState,
+    /// Retained ranges.
+    pub(crate) geometry: ResourceState,
+    pub(crate) store: ResourceState,
+    pub(crate) accumulation: ResourceState,
+}
+
+/// The graph's resources; the numbers of those that have been declared.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Resources {
+    pub(crate) color: ResourceId,
+    pub(crate) depth: ResourceId,
+    pub(crate) textures: ResourceId,
+    pub(crate) geometry: ResourceId,
+    pub(crate) store: ResourceId,
+    pub(crate) accumulation: ResourceId,
+}
+
+/// A frame ready to be recorded.
+pub(crate) struct Schedule {
+    pub(crate) graph: CompiledGraph,
+    pub(crate) resources: Resources,
+    /// By the numbers of the graph's passes.
+    pub(crate) work: Vec<Work>,
+}
+
+/// Sizes of buffers, at least 1: the graph knows no empty ones.
+pub(crate) struct Sizes {
+    pub(crate) store: u64,
+    pub(crate) accumulation: u64,
+}
+
+/// Declares and compiles the passes of a frame. `has_first` says whether its first step has anything to do.
+pub(crate) fn schedule(
+    plan: &Plan,
+    frame: &Frame,
+    target: &Target,
+    lasting: &Lasting,
+    sizes: &Sizes,
+    has_first: bool,
+    question: Option<&Question>,
+) -> Result<Schedule, GraphError> {
+    let mut graph = GraphBuilder::new();
+    let buffer = |bytes: u64| ResourceDesc::Buffer { bytes: bytes.max(1) };
+    let resources = Resources {
+        color: graph.import("color", target.color_desc(), target.color_state),
+        depth: graph.import("depth", target.depth_desc(), target.depth_state),
+        textures: graph.import("textures", buffer(1), lasting.textures),
+        geometry: graph.import("geometry", buffer(1), lasting.geometry),
+        store: graph.import("store", buffer(sizes.store), lasting.store),
+        accumulation: graph.import(
+            "accumulation",
+            buffer(sizes.accumulation),
+            lasting.accumulation,
+        ),
+    };
+    for output in [
+        resources.color,
+        resources.depth,
+        resources.textures,
+        resources.geometry,
+        resources.accumulation,
+    ] {
+        graph.output(output);
+    }
+    let mut declaring = Declaring {
+        graph,
+        resources,
+        work: Vec::with_capacity(plan.steps.len() + 1),
+    };
+    for (index, step) in plan.steps.iter().enumerate() {
+        if index > 0 || has_first {
+            declaring.step(index, step, plan, frame, target.size);
+        }
+    }
+    if let Some(question) = question {
+        declaring.read_back(question);
+    }
+    Ok(Schedule {
+        graph: declaring.graph.compile()?,
+        resources,
+        work: declaring.work,
+    })
+}
+
+struct Declaring {
+    graph: GraphBuilder,
+    resources: Resources,
+    work: Vec<Work>,
+}
+
+impl Declaring {
+    fn step(&mut self, index: usize, step: &Step, plan: &Plan, frame: &Frame, size: [u32; 2]) {
+        match step {
+            Step::Transfers(range) if index == 0 => self.first(range),
+            Step::Transfers(range) => self.transfers(range),
+            Step::Raster(step) => self.raster(step, frame),
+            Step::Copy(batch) => self.copy(*batch, plan),
+            Step::ReadPixels(operation) => self.read_pixels(*operation, frame),
+            Step::Accumulate(operation) => {
+                if let Some(item) = Accumulated::of(frame, *operation, size) {
+                    self.accumulate(item);
+                }
+            }
+        }
+    }
+
+    fn first(&mut self, range: &Range<usize>) {
+        self.work.push(Work::First(range.clone()));
+        self.graph
+            .pass("upload", PassKind::Transfer)
+            .read_write(self.resources.textures, Access::TransferDst)
+            .read_write(self.resources.geometry, Access::TransferDst);
+    }
+
+    fn transfers(&mut self, range: &Range<usize>) {
+        self.work.push(Work::Transfers(range.clone()));
+        self.graph
+            .pass("upload", PassKind::Transfer)
+            .read_write(self.resources.textures, Access::TransferDst);
+    }
+
+    fn raster(&mut self, step: &RasterStep, frame: &Frame) {
+        self.work.push(Work::Raster(step.clone()));
+        // Only the first operation after pixels were read can draw them.
+        let draws_store = matches!(
+            frame.operations[step.operations.start],
+            Operation::CopyPixels(_)
+        );
+        let mut pass = self.graph.pass("raster", PassKind::Graphics);
+        pass.read_write(self.resources.color, Access::ColorAttachment)
+            .read_write(self.resources.depth, Access::DepthAttachment)
+            .read(self.resources.textures, Access::StorageReadFragment)
+            .read(self.resources.geometry, Access::StorageReadVertex)
+            .read(self.resources.geometry, Access::IndexRead);
+        if draws_store {
+            pass.read(self.resources.store, Access::StorageReadFragment);
+        }
+    }
+
+    fn copy(&mut self, batch: usize, plan: &Plan) {
+        let Resources {
+            color,
+            depth,
+            textures,
+            store,
+            ..
+        } = self.resources;
+        let source = if plan.batches[batch].from_depth { depth } else { color };
+        self.work.push(Work::CopyRead(batch));
+        self.graph
+            .pass("copy to texture", PassKind::Transfer)
+            .read(source, Access::TransferSrc)
+            .write(store, Access::TransferDst);
+        self.work.push(Work::CopyFlip(batch));
+        self.graph
+            .pass("copy to texture", PassKind::Compute)
+            .read_write(store, Access::StorageWriteCompute);
+        self.work.push(Work::CopyWrite(batch));
+        self.graph
+            .pass("copy to texture", PassKind::Transfer)
+            .read(store, Access::TransferSrc)
+            .read_write(textures, Access::TransferDst);
+    }
+
+    fn read_pixels(&mut self, operation: usize, frame: &Frame) {
+        let is_color = match &frame.operations[operation] {
+            Operation::CopyPixels(copy) => copy.buffer == PixelBuffer::Color,
+            _ => true,
+        };
+        let Resources {
+            color, depth, store, ..
+        } = self.resources;
+        self.work.push(Work::ReadPixels(operation));
+        self.graph
+            .pass("copy pixels", PassKind::Transfer)
+            .read(if is_color { color } else { depth }, Access::TransferSrc)
+            .write(store, Access::TransferDst);
+    }
+
+    fn accumulate(&mut self, item: Accumulated) {
+        let Resources {
+            color,
+            store,
+            accumulation,
+            ..
+        } = self.resources;
+        if item.reads_window() {
+            self.work.push(Work::AccumulateRead(item));
+            self.graph
+                .pass("accumulate", PassKind::Transfer)
+                .read(color, Access::TransferSrc)
+                .write(store, Access::TransferDst);
+        }
+        self.work.push(Work::Accumulate(item));
+        let mut pass = self.graph.pass("accumulate", PassKind::Compute);
+        if item.writes_window() {
+            pass.read(accumulation, Access::StorageReadCompute)
+                .write(store, Access::StorageWriteCompute);
+        } else {
+            pass.read_write(accumulation, Access::StorageWriteCompute);
+        }
+        if item.reads_window() {
+            pass.read(store, Access::StorageReadCompute);
+        }
+        if item.writes_window() {
+            self.work.push(Work::AccumulateWrite(item));
+            self.graph
+                .pass("accumulate", PassKind::Transfer)
+                .read(store, Access::TransferSrc)
+                .read_write(color, Access::TransferDst);
+        }
+    }
+
+    fn read_back(&mut self, question: &Question) {
+        self.work.push(Work::ReadBack);
+        let source = match question {
+            Question::Window {
+                buffer: PixelBuffer::Color,
+                ..
+            } => self.resources.color,
+            Question::Window { .. } => self.resources.depth,
+            Question::Texels { .. } => self.resources.textures,
+        };
+        self.graph
+            .pass("read back", PassKind::Transfer)
+            .side_effect()
+            .read(source, Access::TransferSrc);
+    }
+}

@@ -1,0 +1,9 @@
+//! Frames built by hand, and what they must look like.
+
+mod clears;
+mod fragments;
+mod lighting;
+mod pixels;
+mod primitives;
+mod replies;
+mod textures;

@@ -1,0 +1,174 @@
+//! OpenGL's window coordinates, from the lower left corner, as rows counted from the top.
+
+use afterglow_gl::frame::{ImageCopy, Rect, Region, Viewport};
+use afterglow_gpu::vk;
+
+/// The part of a rectangle that lies in a window of this size; none if that is empty.
+pub(crate) fn clip(rect: &Rect, [width, height]: [u32; 2]) -> Option<Rect> {
+    let span = |start: i32, length: i32, limit: u32| {
+        let end = i64::from(start) + i64::from(length.max(0));
+        let first = i64::from(start).max(0);
+        let last = end.min(i64::from(limit));
+        // Both lie within the window, whose sides fit an i32.
+        (first < last).then_some((first as i32, (last - first) as i32))
+    };
+    let (x, width) = span(rect.x, rect.width, width)?;
+    let (y, height) = span(rect.y, rect.height, height)?;
+    Some(Rect {
+        x,
+        y,
+        width,
+        height,
+    })
+}
+
+/// A rectangle that was clipped to the window, with its upper left corner counted from the top.
+pub(crate) fn from_top(clipped: &Rect, [_, height]: [u32; 2]) -> vk::Rect2D {
+    vk::Rect2D {
+        offset: vk::Offset2D {
+            x: clipped.x,
+            y: height as i32 - clipped.y - clipped.height,
+        },
+        extent: vk::Extent2D {
+            width: clipped.width as u32,
+            height: clipped.height as u32,
+        },
+    }
+}
+
+/// All of a window.
+pub(crate) fn whole([width, height]: [u32; 2]) -> vk::Rect2D {
+    vk::Rect2D {
+        offset: vk::Offset2D::default(),
+        extent: vk::Extent2D { width, height },
+    }
+}
+
+/// Whether a scissor leaves all of the window.
+pub(crate) fn covers(scissor: Option<&Rect>, size: [u32; 2]) -> bool {
+    scissor.is_none_or(|scissor| {
+        clip(scissor, size)
+            .is_some_and(|clipped| [clipped.width as u32, clipped.height as u32] == size)
+    })
+}
+
+/// The scissor, or the window where there is none. What lies outside has no pixels.
+pub(crate) fn scissor(scissor: Option<&Rect>, size: [u32; 2]) -> vk::Rect2D {
+    match scissor {
+        None => whole(size),
+        Some(rect) => clip(rect, size).map_or_else(vk::Rect2D::default, |rect| from_top(&rect, size)),
+    }
+}
+
+/// A viewport of negative height, which turns OpenGL's upward y into rows from the top. None if it is empty or
+/// larger than the device allows.
+pub(crate) fn viewport(
+    viewport: &Viewport,
+    [_, height]: [u32; 2],
+    limits: &vk::PhysicalDeviceLimits,
+) -> Option<vk::Viewport> {
+    let rect = &viewport.rect;
+    let [most_width, most_height] = limits.max_viewport_dimensions;
+    let [least, most] = limits.viewport_bounds_range;
+    let fits = |start: f32, end: f32| start.min(end) >= least && start.max(end) <= most;
+    let result = vk::Viewport {
+        x: rect.x as f32,
+        y: height as f32 - rect.y as f32,
+        width: rect.width as f32,
+        height: -(rect.height as f32),
+        min_depth: viewport.depth_range[0].clamp(0.0, 1.0),
+        max_depth: viewport.depth_range[1].clamp(0.0, 1.0),
+    };
+    let is_usable = (1..=i64::from(most_width)).contains(&i64::from(rect.width))
+        && (1..=i64::from(most_height)).contains(&i64::from(rect.height))
+        && fits(result.x, result.x + result.width)
+        && fits(result.y, result.y + result.height);
+    is_usable.then_some(result)
+}
+
+/// The viewport in which window coordinates are drawn, with depth as it is.
+pub(crate) fn window_viewport(size: [u32; 2]) -> vk::Viewport {
+    let [width, height] = size.map(|side| side as f32);
+    vk::Viewport {
+        x: 0.0,
+        y: height,
+        width,
+        height: -height,
+        min_depth: 0.0,
+        max_depth: 1.0,
+    }
+}
+
+/// The part of a copy to a texture whose source lies in the window: where it goes, and from where.
+pub(crate) fn clip_copy(copy: &ImageCopy, size: [u32; 2]) -> Option<(Region, vk::Rect2D)> {
+    let extent = |axis: usize| i32::try_from(copy.region.extent[axis]).unwrap_or(i32::MAX);
+    let source = Rect {
+        width: copy.source.width.min(extent(0)),
+        height: copy.source.height.min(extent(1)),
+        ..copy.source
+    };
+    let clipped = clip(&source, size)?;
+    let moved = |axis: usize, from: i32, to: i32| {
+        // Clipping moves an edge only towards the window's inside.
+        copy.region.offset[axis].checked_add(i64::from(to).abs_diff(i64::from(from)) as u32)
+    };
+    let [_, _, z] = copy.region.offset;
+    let region = Region {
+        offset: [
+            moved(0, source.x, clipped.x)?,
+            moved(1, source.y, clipped.y)?,
+            z,
+        ],
+        extent: [clipped.width as u32, clipped.height as u32, 1],
+        ..copy.region
+    };
+    Some((region, from_top(&clipped, size)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afterglow_gl::frame::{BaseFormat, ImageKey};
+
+    fn rect(x: i32, y: i32, width: i32, height: i32) -> Rect {
+        Rect {
+            x,
+            y,
+            width,
+            height,
+        }
+    }
+
+    #[test]
+    fn rectangles_are_clipped_and_counted_from_the_top() {
+        let size = [10, 8];
+        assert_eq!(clip(&rect(-2, 6, 5, 5), size), Some(rect(0, 6, 3, 2)));
+        assert_eq!(clip(&rect(10, 0, 5, 5), size), None);
+        assert_eq!(clip(&rect(0, 0, -1, 5), size), None);
+        assert_eq!(clip(&rect(i32::MAX, i32::MIN, i32::MAX, i32::MAX), size), None);
+        let top = from_top(&rect(0, 6, 3, 2), size);
+        assert_eq!((top.offset.y, top.extent.height), (0, 2));
+        assert!(covers(Some(&rect(-1, -1, 100, 100)), size));
+        assert!(!covers(Some(&rect(1, 0, 100, 100)), size));
+        assert_eq!(scissor(Some(&rect(20, 20, 1, 1)), size).extent.width, 0);
+    }
+
+    #[test]
+    fn a_copy_loses_what_lies_outside_the_window() {
+        let copy = ImageCopy {
+            image: ImageKey::unique(),
+            region: Region {
+                level: 0,
+                layer: 0,
+                offset: [1, 1, 0],
+                extent: [4, 4, 1],
+            },
+            source: rect(-1, 6, 4, 4),
+            base_format: BaseFormat::Rgb,
+        };
+        let (region, source) = clip_copy(&copy, [10, 8]).unwrap();
+        assert_eq!((region.offset, region.extent), ([2, 1, 0], [3, 2, 1]));
+        assert_eq!((source.offset.x, source.offset.y), (0, 0));
+        assert!(clip_copy(&copy, [10, 6]).is_none());
+    }
+}

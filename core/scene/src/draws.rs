@@ -1,0 +1,154 @@
+//! Facts on each draw, from its state alone: what it can be part of before anything is known of the scene.
+
+use afterglow_gl::frame::{Compare, Draw, Frame, Topology};
+use glam::{DMat4, DVec3};
+use hashbrown::HashMap;
+
+use crate::geometry::{Colors, ContentCache, sample_positions};
+use crate::images::Images;
+use crate::matrix::{self, Perspective};
+use crate::opacity::{Mixing, mixing};
+use crate::views::{Place, Views};
+
+/// How a draw meets the depth buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DepthUse {
+    /// Neither tests nor writes.
+    Off,
+    /// Writes whatever is there.
+    Fill,
+    /// Tests, does not write.
+    Test,
+    /// Tests for equality.
+    Equal,
+    /// Tests and writes.
+    TestWrite,
+}
+
+/// A distinct pair of matrices of the frame.
+#[derive(Debug, Clone)]
+pub struct TransformFacts {
+    /// MODELVIEW in f64.
+    pub modelview: DMat4,
+    /// Hash of MODELVIEW's bits.
+    pub modelview_hash: u64,
+    /// Hash of PROJECTION's bits.
+    pub projection_hash: u64,
+    /// The projection, unless orthographic.
+    pub perspective: Option<Perspective>,
+    /// MODELVIEW makes things flat.
+    pub flattening: bool,
+}
+
+/// What a draw's state says of it.
+#[derive(Debug, Clone)]
+pub struct DrawFacts<'a> {
+    /// Index of the operation.
+    pub operation: u32,
+    /// The draw.
+    pub draw: &'a Draw,
+    /// View and depth layer.
+    pub place: Place,
+    /// Triangles; 0 for points and lines.
+    pub triangles: u32,
+    /// Use of the depth buffer.
+    pub depth: DepthUse,
+    /// What blending amounts to.
+    pub mixing: Mixing,
+    /// Vertex colours.
+    pub colors: Colors,
+    /// Writes any of red, green, blue.
+    pub writes_color: bool,
+    /// Near and far of glDepthRange.
+    pub depth_range: [f32; 2],
+    /// Index into the table of [`TransformFacts`].
+    pub transform: usize,
+}
+
+impl DrawFacts<'_> {
+    /// Whether the draw could be a surface of a world: opaque triangles in perspective that test and
+    /// write depth.
+    pub fn is_solid(&self, transforms: &[TransformFacts]) -> bool {
+        self.triangles > 0
+            && self.writes_color
+            && self.depth == DepthUse::TestWrite
+            && matches!(self.mixing, Mixing::Opaque | Mixing::CutOut)
+            && transforms[self.transform].perspective.is_some()
+            && !transforms[self.transform].flattening
+    }
+
+    /// Positions spread over the draw, in the space after MODELVIEW.
+    pub fn eye_samples(
+        &self,
+        frame: &Frame,
+        transforms: &[TransformFacts],
+        count: usize,
+    ) -> impl Iterator<Item = DVec3> {
+        let modelview = transforms[self.transform].modelview;
+        sample_positions(frame, self.draw, count)
+            .map(move |p| modelview.project_point3(p.as_dvec3()))
+            .filter(|p| p.is_finite())
+    }
+}
+
+/// Facts on all distinct transforms of a frame, in the order of its table.
+pub fn transforms(frame: &Frame) -> Vec<TransformFacts> {
+    let hasher = xxhash_rust::xxh3::xxh3_64;
+    let mut perspectives: HashMap<u64, Option<Perspective>> = HashMap::new();
+    let facts = frame.transforms.iter().map(|transform| {
+        let modelview = matrix::from_columns(&transform.modelview);
+        let projection_hash = hasher(bytemuck::bytes_of(&matrix::bits(&transform.projection)));
+        let perspective = *perspectives.entry(projection_hash).or_insert_with(|| {
+            matrix::factor_perspective(matrix::from_columns(&transform.projection))
+        });
+        TransformFacts {
+            modelview,
+            modelview_hash: hasher(bytemuck::bytes_of(&matrix::bits(&transform.modelview))),
+            projection_hash,
+            perspective,
+            flattening: matrix::is_flattening(modelview),
+        }
+    });
+    facts.collect()
+}
+
+/// Facts on all draws of a frame.
+pub fn draws<'a>(
+    frame: &'a Frame,
+    views: &Views,
+    images: &Images,
+    cache: &mut ContentCache,
+) -> Vec<DrawFacts<'a>> {
+    let placed = frame.draws().zip(&views.places);
+    let facts = placed.map(|((operation, draw), &place)| {
+        let raster = &frame.fixed[draw.fixed as usize].raster;
+        let colors = cache.colors(frame, draw);
+        let is_triangles = draw.topology == Topology::Triangles;
+        DrawFacts {
+            operation: operation as u32,
+            draw,
+            place,
+            triangles: if is_triangles { draw.index_count / 3 } else { 0 },
+            depth: depth_use(raster.depth),
+            mixing: mixing(frame, draw, colors, images),
+            colors,
+            writes_color: raster.color_mask & 7 != 0,
+            depth_range: frame.viewports[draw.viewport as usize].depth_range,
+            transform: draw.transform as usize,
+        }
+    });
+    facts.collect()
+}
+
+fn depth_use(depth: Option<afterglow_gl::frame::Depth>) -> DepthUse {
+    match depth {
+        None => DepthUse::Off,
+        Some(d) => match (d.compare, d.write) {
+            (Compare::Always, false) => DepthUse::Off,
+            (Compare::Always, true) => DepthUse::Fill,
+            (Compare::Equal, _) => DepthUse::Equal,
+            (_, false) => DepthUse::Test,
+            (_, true) => DepthUse::TestWrite,
+        },
+    }
+}

@@ -1,0 +1,211 @@
+//! What is known of the texels of images: whether their alpha can be below one, and their mean colour.
+
+use afterglow_gl::frame::{
+    BaseFormat, Frame, ImageKey, ImageShape, ImageUpload, Operation, Region, TexelFormat,
+};
+use glam::Vec3;
+use hashbrown::HashMap;
+
+/// Texels that a mean colour is taken from, at most.
+const MEAN_SAMPLES: usize = 1024;
+
+/// What level 0 of an image holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImageFacts {
+    shape: ImageShape,
+    texels: u64,
+    clear: u64,
+    partial: u64,
+    mean: Option<Vec3>,
+}
+
+impl ImageFacts {
+    fn new(shape: ImageShape) -> ImageFacts {
+        ImageFacts { shape, texels: 0, clear: 0, partial: 0, mean: None }
+    }
+
+    /// Whether every texel's alpha is one.
+    pub fn is_opaque(&self) -> bool {
+        !has_alpha(self.shape.base_format) || (self.clear == 0 && self.partial == 0)
+    }
+
+    /// Whether alpha cuts a shape out: hardly any texel lies between clear and opaque.
+    pub fn is_cut_out(&self) -> bool {
+        self.clear > 0 && self.partial * 4 < self.texels
+    }
+
+    /// Mean colour of the texels as they are stored (sRGB), if any were seen.
+    pub fn mean(&self) -> Option<Vec3> {
+        self.mean
+    }
+
+    fn upload(&mut self, upload: &ImageUpload) {
+        let region = &upload.region;
+        if region.level != 0 || self.shape.format != TexelFormat::Rgba8 {
+            return;
+        }
+        if covers(&self.shape, region) {
+            *self = ImageFacts::new(self.shape);
+        }
+        self.texels += upload.texels.len() as u64 / 4;
+        if has_alpha(self.shape.base_format) {
+            self.count_alpha(&upload.texels);
+        }
+        self.mean = mean_color(&upload.texels).or(self.mean);
+    }
+
+    fn count_alpha(&mut self, texels: &[u8]) {
+        let (mut below, mut clear) = (0u64, 0u64);
+        for texel in texels.chunks_exact(4) {
+            below += u64::from(texel[3] < 255);
+            clear += u64::from(texel[3] < 26);
+        }
+        // Texels close to opaque are neither: they come from filters and from careless painting.
+        let nearly = texels.chunks_exact(4).filter(|t| (230..255).contains(&t[3])).count() as u64;
+        self.clear += clear;
+        self.partial += below - clear - nearly;
+        if nearly > 0 && self.clear + self.partial == 0 {
+            self.partial += nearly;
+        }
+    }
+}
+
+fn has_alpha(format: BaseFormat) -> bool {
+    matches!(
+        format,
+        BaseFormat::Alpha | BaseFormat::LuminanceAlpha | BaseFormat::Intensity | BaseFormat::Rgba
+    )
+}
+
+fn covers(shape: &ImageShape, region: &Region) -> bool {
+    region.offset == [0; 3] && region.extent == [shape.width, shape.height, shape.depth]
+}
+
+fn mean_color(texels: &[u8]) -> Option<Vec3> {
+    let count = texels.len() / 4;
+    let step = count.div_ceil(MEAN_SAMPLES).max(1);
+    let sampled = texels.chunks_exact(4).step_by(step);
+    let samples = sampled.len();
+    let sum: Vec3 = sampled.map(|t| Vec3::new(t[0].into(), t[1].into(), t[2].into())).sum();
+    (samples > 0).then(|| sum / (255.0 * samples as f32))
+}
+
+/// Knowledge of all images of a context, learnt from the operations of its frames.
+#[derive(Debug, Default)]
+pub struct Images {
+    facts: HashMap<ImageKey, ImageFacts>,
+}
+
+impl Images {
+    /// Takes note of the frame's new texels. Images dropped in it stay known, for its draws may use them.
+    pub fn learn(&mut self, frame: &Frame) {
+        for operation in &frame.operations {
+            match operation {
+                Operation::DefineImage { image, shape } => {
+                    self.facts.insert(*image, ImageFacts::new(*shape));
+                }
+                Operation::Upload(upload) => {
+                    if let Some(facts) = self.facts.get_mut(&upload.image) {
+                        facts.upload(upload);
+                    }
+                }
+                Operation::CopyImage { from, to, to_level: 0, .. } => self.copy(*from, *to),
+                _ => {}
+            }
+        }
+    }
+
+    fn copy(&mut self, from: ImageKey, to: ImageKey) {
+        let Some(source) = self.facts.get(&from).copied() else { return };
+        if let Some(facts) = self.facts.get_mut(&to) {
+            *facts = ImageFacts { shape: facts.shape, ..source };
+        }
+    }
+
+    /// Forgets the images that the frame dropped.
+    pub fn forget(&mut self, frame: &Frame) {
+        for operation in &frame.operations {
+            if let Operation::DropImage(image) = operation {
+                self.facts.remove(image);
+            }
+        }
+    }
+
+    /// What is known of an image.
+    pub fn get(&self, image: ImageKey) -> Option<&ImageFacts> {
+        self.facts.get(&image)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use afterglow_gl::frame::Dimension;
+
+    fn frame_with(format: BaseFormat, texels: &[[u8; 4]]) -> (Frame, ImageKey) {
+        let image = ImageKey::unique();
+        let shape = ImageShape {
+            dimension: Dimension::D2,
+            width: texels.len() as u32,
+            height: 1,
+            depth: 1,
+            levels: 1,
+            format: TexelFormat::Rgba8,
+            base_format: format,
+        };
+        let region =
+            Region { level: 0, layer: 0, offset: [0; 3], extent: [texels.len() as u32, 1, 1] };
+        let upload = ImageUpload { image, region, texels: texels.as_flattened().into() };
+        let operations =
+            vec![Operation::DefineImage { image, shape }, Operation::Upload(upload)];
+        (Frame { operations, ..Frame::default() }, image)
+    }
+
+    fn facts(format: BaseFormat, texels: &[[u8; 4]]) -> ImageFacts {
+        let (frame, image) = frame_with(format, texels);
+        let mut images = Images::default();
+        images.learn(&frame);
+        *images.get(image).unwrap()
+    }
+
+    #[test]
+    fn alpha_is_learnt_from_texels() {
+        assert!(facts(BaseFormat::Rgba, &[[9, 9, 9, 255]; 4]).is_opaque());
+        assert!(!facts(BaseFormat::Rgba, &[[9, 9, 9, 250]; 4]).is_opaque());
+        assert!(facts(BaseFormat::Rgb, &[[9, 9, 9, 0]; 4]).is_opaque());
+    }
+
+    #[test]
+    fn cut_outs_are_told_from_gradients() {
+        let mut texels = [[0, 0, 0, 255]; 16];
+        texels[..6].fill([0; 4]);
+        texels[6][3] = 128;
+        assert!(facts(BaseFormat::Rgba, &texels).is_cut_out());
+        texels[6..12].fill([0, 0, 0, 128]);
+        assert!(!facts(BaseFormat::Rgba, &texels).is_cut_out());
+    }
+
+    #[test]
+    fn the_mean_is_of_the_colours() {
+        let found = facts(BaseFormat::Rgb, &[[255, 0, 0, 255], [0, 0, 255, 255]]);
+        assert!(found.mean().unwrap().abs_diff_eq(Vec3::new(0.5, 0.0, 0.5), 1e-6));
+    }
+
+    #[test]
+    fn a_new_upload_of_everything_replaces_what_was_known_and_drops_forget() {
+        let (mut frame, image) = frame_with(BaseFormat::Rgba, &[[0; 4]; 4]);
+        let mut images = Images::default();
+        images.learn(&frame);
+        assert!(!images.get(image).unwrap().is_opaque());
+        let Operation::Upload(upload) = &mut frame.operations[1] else { panic!() };
+        upload.texels = [255; 16].into();
+        frame.operations.remove(0);
+        images.learn(&frame);
+        assert!(images.get(image).unwrap().is_opaque());
+        images.forget(&Frame {
+            operations: vec![Operation::DropImage(image)],
+            ..Frame::default()
+        });
+        assert!(images.get(image).is_none());
+    }
+}

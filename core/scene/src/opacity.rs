@@ -1,0 +1,164 @@
+//! Whether blending a draw can show what is behind it: fragments' alpha followed through the fixed function.
+
+use afterglow_gl::frame::{
+    BaseFormat, Blend, BlendEquation, BlendFactor, CombineFunction, CombineSource, Draw, EnvMode,
+    Frame, TEXTURE_UNITS, UnitWords,
+};
+
+use crate::geometry::Colors;
+use crate::images::{ImageFacts, Images};
+
+/// What a draw's blending amounts to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mixing {
+    /// The fragment replaces what is there.
+    Opaque,
+    /// Alpha cuts a shape out with blended edges.
+    CutOut,
+    /// What is there is multiplied by the fragment (lightmaps, stains).
+    Multiply,
+    /// The fragment is added (glow, reflections).
+    Add,
+    /// Anything else.
+    Blend,
+}
+
+/// What blending makes of a draw, the alpha of its vertices and texels considered.
+pub fn mixing(frame: &Frame, draw: &Draw, colors: Colors, images: &Images) -> Mixing {
+    use BlendFactor as F;
+    let raster = &frame.fixed[draw.fixed as usize].raster;
+    let Some(Blend { rgb, equation_rgb, .. }) = raster.blend else { return Mixing::Opaque };
+    if raster.logic_op.is_some() || equation_rgb != BlendEquation::Add {
+        return Mixing::Blend;
+    }
+    match rgb {
+        (F::One, F::Zero) => Mixing::Opaque,
+        (F::SourceAlpha | F::One, F::OneMinusSourceAlpha) => by_alpha(frame, draw, colors, images),
+        (F::DestinationColor, F::Zero | F::SourceColor)
+        | (F::Zero, F::SourceColor | F::OneMinusSourceColor)
+        | (F::DestinationColor, F::OneMinusSourceAlpha) => Mixing::Multiply,
+        (_, F::One) => Mixing::Add,
+        _ => Mixing::Blend,
+    }
+}
+
+fn by_alpha(frame: &Frame, draw: &Draw, colors: Colors, images: &Images) -> Mixing {
+    let fragment = Fragment { frame, draw, images };
+    let primary = fragment.primary_alpha_is_one(colors);
+    if fragment.alpha_is_one(primary, ImageFacts::is_opaque) {
+        Mixing::Opaque
+    } else if fragment.alpha_is_one(primary, |i| i.is_opaque() || i.is_cut_out()) {
+        Mixing::CutOut
+    } else {
+        Mixing::Blend
+    }
+}
+
+struct Fragment<'a> {
+    frame: &'a Frame,
+    draw: &'a Draw,
+    images: &'a Images,
+}
+
+impl Fragment<'_> {
+    /// Alpha before texturing: the colour's, or the diffuse material's when lit.
+    fn primary_alpha_is_one(&self, colors: Colors) -> bool {
+        let global = self.frame.fixed[self.draw.fixed as usize].words.global;
+        if global.lighting() == 0 {
+            return colors.opaque;
+        }
+        let tracks_diffuse = global.color_material() != 0 && matches!(global.color_material_mode(), 0 | 2);
+        let material = self.frame.materials.get(self.draw.material as usize);
+        let sides = 1 + global.two_side() as usize;
+        (0..sides).all(|side| {
+            if tracks_diffuse && global.color_material_faces() >> side & 1 != 0 {
+                colors.opaque
+            } else {
+                material.is_none_or(|m| m.faces[side].diffuse[3] > 1.0 - 0.5 / 255.0)
+            }
+        })
+    }
+
+    /// Whether the last unit's alpha is one, if a texture's is where `texel_is_one` says so.
+    fn alpha_is_one(&self, primary: bool, texel_is_one: fn(&ImageFacts) -> bool) -> bool {
+        let units = &self.frame.fixed[self.draw.fixed as usize].words.units;
+        let mut previous = primary;
+        for (index, unit) in units.iter().enumerate().filter(|(_, unit)| unit.target() != 0) {
+            let texel = self.texel_alpha_is_one(index, unit, texel_is_one);
+            previous = match unit.env_mode() {
+                mode if mode == EnvMode::Combine as u32 => {
+                    self.combined(index, unit, primary, previous, texel_is_one)
+                }
+                mode if mode == EnvMode::Decal as u32 => previous,
+                mode if !has_alpha(unit) => {
+                    debug_assert!(mode <= EnvMode::Add as u32);
+                    previous
+                }
+                mode if mode == EnvMode::Replace as u32 => texel,
+                _ => previous && texel,
+            };
+        }
+        previous
+    }
+
+    fn texel_alpha_is_one(
+        &self,
+        index: usize,
+        unit: &UnitWords,
+        texel_is_one: fn(&ImageFacts) -> bool,
+    ) -> bool {
+        if !has_alpha(unit) {
+            return true;
+        }
+        let bindings = self.frame.bindings.get(self.draw.bindings as usize);
+        let image = bindings.and_then(|b| b[index]).and_then(|b| self.images.get(b.image));
+        image.is_some_and(texel_is_one)
+    }
+
+    fn combined(
+        &self,
+        index: usize,
+        unit: &UnitWords,
+        primary: bool,
+        previous: bool,
+        texel_is_one: fn(&ImageFacts) -> bool,
+    ) -> bool {
+        let units = &self.frame.fixed[self.draw.fixed as usize].words.units;
+        let source = |which: u32, inverted: u32| {
+            let value = match which {
+                w if w == CombineSource::Previous as u32 => previous,
+                w if w == CombineSource::Primary as u32 => primary,
+                w if w == CombineSource::One as u32 => true,
+                w if w == CombineSource::Texture as u32 => {
+                    self.texel_alpha_is_one(index, unit, texel_is_one)
+                }
+                w if w == CombineSource::Constant as u32 => {
+                    let environment = self.frame.environments.get(self.draw.environment as usize);
+                    environment.is_some_and(|e| e.env_color[index][3] >= 1.0)
+                }
+                w if w >= CombineSource::Texture0 as u32 => {
+                    let other = (w - CombineSource::Texture0 as u32) as usize % TEXTURE_UNITS;
+                    self.texel_alpha_is_one(other, &units[other], texel_is_one)
+                }
+                _ => false,
+            };
+            value && inverted == 0
+        };
+        let first = source(unit.source_alpha0(), unit.operand_alpha0());
+        let second = source(unit.source_alpha1(), unit.operand_alpha1());
+        match unit.combine_alpha() {
+            f if f == CombineFunction::Replace as u32 => first,
+            f if f == CombineFunction::Modulate as u32 => first && second,
+            f if f == CombineFunction::Add as u32 => first || second,
+            f if f == CombineFunction::Interpolate as u32 => first && second,
+            _ => false,
+        }
+    }
+}
+
+fn has_alpha(unit: &UnitWords) -> bool {
+    let format = unit.base_format();
+    [BaseFormat::Alpha, BaseFormat::LuminanceAlpha, BaseFormat::Intensity, BaseFormat::Rgba]
+        .iter()
+        .any(|&f| f as u32 == format)
+}

@@ -1,0 +1,138 @@
+//! Recovery: what is kept from frame to frame, and the steps from a frame to its scene.
+
+use afterglow_gl::frame::Frame;
+use glam::{DMat3, Vec3};
+
+use crate::classify::Classifier;
+use crate::draws::{self, DrawFacts};
+use crate::geometry::ContentCache;
+use crate::images::Images;
+use crate::lights::{self, Lighting};
+use crate::matrix;
+use crate::sky;
+use crate::types::{Camera, Class, Scene, Verdict};
+use crate::views::Views;
+use crate::world::World;
+
+/// Sky of worlds in which nothing shines, linear RGB.
+const FALLBACK_SKY: Vec3 = Vec3::new(0.25, 0.3, 0.38);
+/// Share of lit triangles from which a world has lights of its own.
+const LEAST_LIT: f32 = 0.1;
+
+/// Understands the frames of one context, in order.
+#[derive(Debug, Default)]
+pub struct Recovery {
+    images: Images,
+    cache: ContentCache,
+    up: Option<Vec3>,
+}
+
+impl Recovery {
+    /// A recovery that has seen nothing.
+    pub fn new() -> Recovery {
+        Recovery::default()
+    }
+
+    /// Takes note of a frame's texture images. For frames that are not understood; cheap.
+    pub fn observe(&mut self, frame: &Frame) {
+        self.images.learn(frame);
+        self.images.forget(frame);
+    }
+
+    /// The scene that a frame draws. Sees to the frame's images as well.
+    pub fn understand(&mut self, frame: &Frame) -> Scene {
+        self.images.learn(frame);
+        let scene = self.scene(frame);
+        self.images.forget(frame);
+        scene
+    }
+
+    fn scene(&mut self, frame: &Frame) -> Scene {
+        let views = Views::split(frame);
+        let transforms = draws::transforms(frame);
+        let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
+        let Some(world) = World::find(frame, &views, &draws, &transforms) else {
+            return flat_scene(&draws);
+        };
+        let mut classifier = Classifier::new(frame, &transforms, &world, &mut self.cache);
+        let verdicts: Vec<Verdict> = draws.iter().map(|d| classifier.verdict(d)).collect();
+        let background = views.views[world.view].background;
+        self.light(frame, &world, &draws, verdicts, background)
+    }
+
+    fn light(
+        &mut self,
+        frame: &Frame,
+        world: &World,
+        draws: &[DrawFacts],
+        verdicts: Vec<Verdict>,
+        background: Option<[f32; 4]>,
+    ) -> Scene {
+        let world_from_eye = matrix::rigid_inverse(world.view_rigid);
+        let of_world = draws.iter().zip(&verdicts).filter(|(_, v)| is_world(v)).map(|(d, _)| d);
+        let Lighting { mut lights, ambient, lit_share } =
+            lights::gather(frame, of_world, world_from_eye, world.centre, world.extent);
+        if lit_share < LEAST_LIT {
+            lights.clear();
+        }
+        let baked = lights.is_empty() && baked_share(&verdicts) > 0.5;
+        let mut sky = sky::color(frame, draws, &verdicts, &self.images, background).unwrap_or(Vec3::ZERO);
+        let up = self.up(world);
+        if lights.is_empty() && !baked {
+            lights.push(lights::fallback_sun(up));
+            sky = sky.max(FALLBACK_SKY * 0.5);
+        }
+        Scene {
+            camera: Some(Camera {
+                view: world.view_matrix(),
+                projection: world.perspective.projection.as_mat4(),
+            }),
+            verdicts,
+            lights,
+            sky,
+            ambient,
+            baked,
+        }
+    }
+
+    /// The axis of the world that points most upward on screen, kept until another clearly does.
+    fn up(&mut self, world: &World) -> Vec3 {
+        let world_from_eye = DMat3::from_mat4(world.view_matrix()).transpose();
+        let upward = (world_from_eye * world.perspective.upward()).as_vec3();
+        let axis = nearest_axis(upward);
+        let kept = self.up.filter(|up| up.dot(upward) > 0.4);
+        *self.up.insert(kept.unwrap_or(axis))
+    }
+}
+
+fn nearest_axis(direction: Vec3) -> Vec3 {
+    let size = direction.abs();
+    let along = Vec3::AXES.into_iter().find(|a| size.dot(*a) >= size.max_element());
+    let axis = along.unwrap_or(Vec3::Y);
+    axis * direction.dot(axis).signum()
+}
+
+fn is_world(verdict: &Verdict) -> bool {
+    matches!(verdict.class, Class::Static | Class::Movable | Class::Dynamic)
+}
+
+/// Share of the world's triangles whose colours are baked light.
+fn baked_share(verdicts: &[Verdict]) -> f64 {
+    let count = |keep: &dyn Fn(&&Verdict) -> bool| -> u64 {
+        verdicts.iter().filter(|v| is_world(v)).filter(keep).map(|v| u64::from(v.triangles)).sum()
+    };
+    count(&|v| v.baked) as f64 / count(&|_| true).max(1) as f64
+}
+
+/// A frame without a world: everything is drawn as it is.
+fn flat_scene(draws: &[DrawFacts]) -> Scene {
+    let verdict = |facts: &DrawFacts| Verdict {
+        operation: facts.operation,
+        class: Class::Interface,
+        reason: "no world in this frame",
+        model: glam::Mat4::IDENTITY,
+        baked: false,
+        triangles: facts.triangles,
+    };
+    Scene { verdicts: draws.iter().map(verdict).collect(), ..Scene::default() }
+}

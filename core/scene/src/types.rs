@@ -1,0 +1,187 @@
+//! What a scene is: the one type that goes from here to the renderer.
+
+use glam::{DMat4, Mat4, Vec3};
+
+/// The camera that the world was drawn with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// World to eye space, in f64: its inverse moves lights and objects to the world.
+    pub view: DMat4,
+    /// Eye to clip space (OpenGL's).
+    pub projection: Mat4,
+}
+
+/// What a draw is. Classes that need more than one frame's evidence are there for later.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// Part of the world, drawn under the view matrix itself.
+    Static,
+    /// Part of the world, with a model matrix of its own.
+    Movable,
+    /// Part of the world, its vertices change.
+    Dynamic,
+    /// First-person weapon: seen by the camera, casts no shadow.
+    ViewModel,
+    /// Blended over the world.
+    Translucent,
+    /// Behind everything.
+    Sky,
+    /// Menus, HUD.
+    Interface,
+    /// Drawn again over a surface of the world, to be part of it (lightmap, detail, glow).
+    Layer,
+    /// Part of another view (mirror, picture in picture, cube map).
+    OtherView,
+    /// Not needed when rays make the light (shadow volumes, planar shadows).
+    Dropped,
+    /// Nothing of the above is sure: rasterized.
+    Undecided,
+}
+
+impl Class {
+    /// Whether the camera sees the draw through the visibility buffer.
+    pub fn is_traced(self) -> bool {
+        matches!(self, Class::Static | Class::Movable | Class::Dynamic | Class::ViewModel)
+    }
+}
+
+/// The verdict on a draw.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Verdict {
+    /// Index of the operation in the frame.
+    pub operation: u32,
+    /// What it is.
+    pub class: Class,
+    /// Why, in a few words.
+    pub reason: &'static str,
+    /// Object to world space; identity unless the draw belongs to the world.
+    pub model: Mat4,
+    /// Its colours are baked light: unlit, with a lightmap or vertex colours.
+    pub baked: bool,
+    /// Number of triangles; 0 for points and lines.
+    pub triangles: u32,
+}
+
+/// Where a light came from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LightOrigin {
+    /// glLight.
+    Gl(u8),
+    /// Nothing was found: a soft sun.
+    Fallback,
+}
+
+/// Where a light is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LightShape {
+    /// Infinitely far; direction from the surface to the light, and the disc's angular radius (radians).
+    Directional {
+        /// Unit vector to the light, world space.
+        to_light: Vec3,
+        /// Radians.
+        angular_radius: f32,
+    },
+    /// At a place.
+    Point {
+        /// World space.
+        position: Vec3,
+        /// Radius of the sphere that shines, world units.
+        radius: f32,
+        /// Constant, linear, quadratic falloff with distance, as OpenGL has it.
+        attenuation: Vec3,
+        /// Spot: unit axis, cosine of the cut-off, exponent.
+        spot: Option<(Vec3, f32, f32)>,
+    },
+}
+
+/// A light of the world.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneLight {
+    /// Where it is.
+    pub shape: LightShape,
+    /// Linear RGB that a facing white surface would show: OpenGL's diffuse colour, taken as sRGB.
+    pub color: Vec3,
+    /// Where it came from.
+    pub origin: LightOrigin,
+}
+
+/// Triangles of a frame by class.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each field is named for its class; mirrored is OtherView")]
+pub struct TriangleCounts {
+    pub r#static: u64,
+    pub movable: u64,
+    pub dynamic: u64,
+    pub view_model: u64,
+    pub translucent: u64,
+    pub sky: u64,
+    pub interface: u64,
+    pub layer: u64,
+    pub mirrored: u64,
+    pub dropped: u64,
+    pub undecided: u64,
+}
+
+impl TriangleCounts {
+    /// The count of a class.
+    pub fn of(&mut self, class: Class) -> &mut u64 {
+        match class {
+            Class::Static => &mut self.r#static,
+            Class::Movable => &mut self.movable,
+            Class::Dynamic => &mut self.dynamic,
+            Class::ViewModel => &mut self.view_model,
+            Class::Translucent => &mut self.translucent,
+            Class::Sky => &mut self.sky,
+            Class::Interface => &mut self.interface,
+            Class::Layer => &mut self.layer,
+            Class::OtherView => &mut self.mirrored,
+            Class::Dropped => &mut self.dropped,
+            Class::Undecided => &mut self.undecided,
+        }
+    }
+
+    /// The counts with their names, as reports write them.
+    pub fn named(&self) -> [(&'static str, u64); 11] {
+        [
+            ("static", self.r#static),
+            ("movable", self.movable),
+            ("dynamic", self.dynamic),
+            ("view_model", self.view_model),
+            ("translucent", self.translucent),
+            ("sky", self.sky),
+            ("interface", self.interface),
+            ("layer", self.layer),
+            ("mirrored", self.mirrored),
+            ("dropped", self.dropped),
+            ("undecided", self.undecided),
+        ]
+    }
+}
+
+impl Scene {
+    /// Triangles by class.
+    pub fn triangles(&self) -> TriangleCounts {
+        let mut counts = TriangleCounts::default();
+        for verdict in &self.verdicts {
+            *counts.of(verdict.class) += u64::from(verdict.triangles);
+        }
+        counts
+    }
+}
+
+/// A frame, understood.
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// The camera; without one the frame is rasterized as it is.
+    pub camera: Option<Camera>,
+    /// A verdict on each draw, in the frame's order.
+    pub verdicts: Vec<Verdict>,
+    /// The lights. Empty when the program's baked light is the light.
+    pub lights: Vec<SceneLight>,
+    /// Linear RGB from every direction that sees no surface.
+    pub sky: Vec3,
+    /// Ambient light of the program's lights and light model, linear RGB: what bounces would have made.
+    pub ambient: Vec3,
+    /// The world shows baked light (lightmaps, vertex colours) and has no light sources of its own.
+    pub baked: bool,
+}

@@ -1,0 +1,206 @@
+//! Which part of a frame is the world, and the camera that it was drawn with.
+
+use afterglow_gl::frame::Frame;
+use glam::{DMat4, DVec3};
+use hashbrown::HashMap;
+
+use crate::draws::{DrawFacts, TransformFacts};
+use crate::matrix::{self, Perspective};
+use crate::views::{Views, share_of_drawable};
+
+/// Least share of the drawable that the world's viewport covers.
+const LEAST_SHARE: f64 = 0.1;
+
+/// The world of a frame.
+#[derive(Debug, Clone)]
+pub struct World {
+    /// Index of its view.
+    pub view: usize,
+    /// What its draws have in common.
+    pub stage: Stage,
+    /// The projection, and what the program put in front of it.
+    pub perspective: Perspective,
+    /// MODELVIEW that stands for the view.
+    pub modelview: DMat4,
+    /// Its rigid part: world space to the space after MODELVIEW.
+    pub view_rigid: DMat4,
+    /// First operation that draws a surface of it.
+    pub first: u32,
+    /// Last operation that draws a surface of it.
+    pub last: u32,
+    /// Diagonal of the box around what was drawn.
+    pub extent: f64,
+    /// Mean of what was drawn, in world space.
+    pub centre: DVec3,
+}
+
+/// Draws that share projection, depth range and depth layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Stage {
+    projection: u64,
+    depth_range: [u32; 2],
+    layer: u32,
+}
+
+impl Stage {
+    /// The stage of a draw.
+    pub fn of(facts: &DrawFacts, transforms: &[TransformFacts]) -> Stage {
+        Stage {
+            projection: transforms[facts.transform].projection_hash,
+            depth_range: facts.depth_range.map(f32::to_bits),
+            layer: facts.place.layer,
+        }
+    }
+
+    /// Depth clears within the view before it.
+    pub fn layer(&self) -> u32 {
+        self.layer
+    }
+
+    /// Whether both have the same PROJECTION matrix.
+    pub fn shares_projection(&self, other: &Stage) -> bool {
+        self.projection == other.projection
+    }
+}
+
+impl World {
+    /// Finds the world of a frame; `None` when nothing solid is drawn in perspective.
+    pub fn find(
+        frame: &Frame,
+        views: &Views,
+        draws: &[DrawFacts],
+        transforms: &[TransformFacts],
+    ) -> Option<World> {
+        let solid = || draws.iter().filter(|d| d.is_solid(transforms));
+        let view = choose_view(frame, views, solid())?;
+        let in_view = || solid().filter(|d| d.place.view == view);
+
+        let mut stages: HashMap<Stage, Group> = HashMap::new();
+        for facts in in_view() {
+            stages.entry(Stage::of(facts, transforms)).or_default().add(frame, facts, transforms);
+        }
+        let (stage, whole) = heaviest(&stages, Group::weight)?;
+
+        let mut matrices: HashMap<u64, Group> = HashMap::new();
+        for facts in in_view().filter(|d| Stage::of(d, transforms) == *stage) {
+            let hash = transforms[facts.transform].modelview_hash;
+            matrices.entry(hash).or_default().add(frame, facts, transforms);
+        }
+        let (_, chosen) = heaviest(&matrices, |g| g.view_weight(whole, transforms))?;
+        let modelview = transforms[chosen.transform].modelview;
+        let view_rigid =
+            matrix::similarity(modelview).map_or_else(|| matrix::orthonormal(modelview), |s| s.rigid);
+        Some(World {
+            view,
+            stage: *stage,
+            perspective: transforms[chosen.transform].perspective?,
+            modelview,
+            view_rigid,
+            first: whole.first,
+            last: whole.last,
+            extent: whole.extent(),
+            centre: matrix::rigid_inverse(view_rigid).transform_point3(whole.mean()),
+        })
+    }
+
+    /// World space to true eye space.
+    pub fn view_matrix(&self) -> DMat4 {
+        self.perspective.view * self.view_rigid
+    }
+}
+
+/// The view with the largest viewport and most solid triangles.
+fn choose_view<'a>(
+    frame: &Frame,
+    views: &Views,
+    solid: impl Iterator<Item = &'a DrawFacts<'a>>,
+) -> Option<usize> {
+    let mut triangles = vec![0u64; views.views.len()];
+    for facts in solid {
+        triangles[facts.place.view] += u64::from(facts.triangles);
+    }
+    let weight = |view: usize| {
+        let share = share_of_drawable(views.views[view].rect, frame.size);
+        let counts = share >= LEAST_SHARE && !views.views[view].erased;
+        if counts { triangles[view] as f64 * share * share } else { 0.0 }
+    };
+    (0..triangles.len())
+        .filter(|&view| weight(view) > 0.0)
+        .max_by(|&a, &b| weight(a).total_cmp(&weight(b)))
+}
+
+/// The entry of greatest weight; of equals, the one that was drawn first.
+fn heaviest<K>(groups: &HashMap<K, Group>, weight: impl Fn(&Group) -> f64) -> Option<(&K, &Group)> {
+    groups.iter().max_by(|(_, a), (_, b)| weight(a).total_cmp(&weight(b)).then(b.first.cmp(&a.first)))
+}
+
+/// Draws taken together.
+#[derive(Debug, Clone)]
+struct Group {
+    transform: usize,
+    triangles: u64,
+    first: u32,
+    last: u32,
+    least: DVec3,
+    most: DVec3,
+    sum: DVec3,
+    samples: f64,
+}
+
+impl Default for Group {
+    fn default() -> Group {
+        Group {
+            transform: 0,
+            triangles: 0,
+            first: u32::MAX,
+            last: 0,
+            least: DVec3::INFINITY,
+            most: DVec3::NEG_INFINITY,
+            sum: DVec3::ZERO,
+            samples: 0.0,
+        }
+    }
+}
+
+impl Group {
+    fn add(&mut self, frame: &Frame, facts: &DrawFacts, transforms: &[TransformFacts]) {
+        if self.triangles == 0 {
+            self.transform = facts.transform;
+        }
+        self.triangles += u64::from(facts.triangles);
+        self.first = self.first.min(facts.operation);
+        self.last = self.last.max(facts.operation);
+        let count = 8 + facts.draw.index_count as usize / 64;
+        for sample in facts.eye_samples(frame, transforms, count) {
+            self.least = self.least.min(sample);
+            self.most = self.most.max(sample);
+            self.sum += sample;
+            self.samples += 1.0;
+        }
+    }
+
+    fn extent(&self) -> f64 {
+        if self.samples > 0.0 { (self.most - self.least).length() } else { 0.0 }
+    }
+
+    fn mean(&self) -> DVec3 {
+        if self.samples > 0.0 { self.sum / self.samples } else { DVec3::ZERO }
+    }
+
+    /// Much of the screen's triangles and much of space.
+    fn weight(&self) -> f64 {
+        (self.triangles as f64).sqrt() * self.extent().max(f64::MIN_POSITIVE)
+    }
+
+    /// As a candidate for the view: rigid matrices before scaled ones before all others, unless nearly
+    /// everything is drawn under it.
+    fn view_weight(&self, whole: &Group, transforms: &[TransformFacts]) -> f64 {
+        let preference = match matrix::similarity(transforms[self.transform].modelview) {
+            Some(found) if found.scale == 1.0 => 1.0,
+            Some(_) => 0.25,
+            None => 0.05,
+        };
+        let majority = self.triangles * 2 > whole.triangles;
+        self.weight() * preference * if majority { 2.0 } else { 1.0 }
+    }
+}

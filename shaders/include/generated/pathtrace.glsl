@@ -1,0 +1,181 @@
+// Written by afterglow-gen (./x gen) from the declarations in Rust; not to be edited.
+#ifndef GENERATED_PATHTRACE
+#define GENERATED_PATHTRACE
+
+#ifndef STRUCT_SurfaceDraw
+#define STRUCT_SurfaceDraw
+struct SurfaceDraw { // 208 bytes
+    uint64_t vertices;
+    uint64_t indices;
+    mat3x4 object_to_world;
+    vec4 viewport;
+    uint state[14];
+    uint textures[4];
+    uint vertex_layout;
+    uint last_vertex;
+    uint triangles;
+    uint transform;
+    uint material;
+    uint environment;
+    uint texgen;
+    uint texture_matrices;
+    uint current;
+    uint clamps;
+    uint kind;
+    uint next_layer;
+    uint blend;
+    uint ray_mask;
+};
+#endif
+
+#ifndef STRUCT_MeshMember
+#define STRUCT_MeshMember
+struct MeshMember { // 8 bytes
+    uint draw;
+    uint first_triangle;
+};
+#endif
+
+#ifndef STRUCT_LightSource
+#define STRUCT_LightSource
+struct LightSource { // 64 bytes
+    vec3 position;
+    float radius;
+    vec3 color;
+    uint has_place;
+    vec3 attenuation;
+    float spot_cos_cutoff;
+    vec3 spot_axis;
+    float spot_exponent;
+};
+#endif
+
+#ifndef STRUCT_ViewRecord
+#define STRUCT_ViewRecord
+struct ViewRecord { // 160 bytes
+    uint64_t frame;
+    uint64_t draws;
+    uint64_t members;
+    uint64_t lights;
+    uint64_t world;
+    uint64_t surfaces;
+    uint64_t light;
+    uint64_t indirect;
+    uint64_t sums;
+    uint64_t exposure;
+    uint width;
+    uint height;
+    uint visibility;
+    uint color;
+    uint light_count;
+    uint samples;
+    uint accumulated;
+    uint seed;
+    vec3 sky;
+    float contact_reach;
+    vec3 ambient;
+    uint paint;
+    float pixel_spread;
+    uint has_movers;
+    uint sum_count;
+    float exposure_rate;
+};
+#endif
+
+#ifndef STRUCT_SurfaceTexel
+#define STRUCT_SurfaceTexel
+struct SurfaceTexel { // 32 bytes
+    vec3 start;
+    uint normal;
+    uint geometric;
+    uint albedo;
+    uint specular;
+    uint emission;
+};
+#endif
+
+#ifndef STRUCT_LightTexel
+#define STRUCT_LightTexel
+struct LightTexel { // 36 bytes
+    vec3 direct;
+    vec3 indirect;
+    vec3 specular;
+};
+#endif
+
+#ifndef STRUCT_ExposureSum
+#define STRUCT_ExposureSum
+struct ExposureSum { // 16 bytes
+    vec2 traced;
+    vec2 program;
+};
+#endif
+
+#ifndef STRUCT_Exposure
+#define STRUCT_Exposure
+struct Exposure { // 8 bytes
+    vec2 scale;
+};
+#endif
+
+#ifndef STRUCT_ViewPush
+#define STRUCT_ViewPush
+struct ViewPush { // 32 bytes
+    uint64_t view;
+    uint64_t source;
+    uint64_t target;
+    uint step;
+    uint padding;
+};
+#endif
+
+#define BLEND_WORDS 1
+#define BLEND_ENABLED_WORD 0
+#define blend_enabled(w) (((w) >> 0) & 0x1u)
+#define BLEND_SOURCE_WORD 0
+#define blend_source(w) (((w) >> 1) & 0xfu)
+#define BLEND_DESTINATION_WORD 0
+#define blend_destination(w) (((w) >> 5) & 0xfu)
+#define BLEND_EQUATION_WORD 0
+#define blend_equation(w) (((w) >> 9) & 0x7u)
+#define MASK_STATIC 1u
+#define MASK_MOVING 2u
+#define MASK_VIEW_MODEL 4u
+#define MEMBER_SHIFT 20u
+
+#define SURFACE_NONE 0u
+#define SURFACE_LIT 1u
+#define SURFACE_CATCHER 2u
+#define SURFACE_BAKED 3u
+#define SURFACE_BAKED_MOVER 4u
+
+#define PAINT_PICTURE 0u
+#define PAINT_KIND 1u
+#define PAINT_NORMAL 2u
+#define PAINT_ALBEDO 3u
+#define PAINT_DIRECT 4u
+#define PAINT_INDIRECT 5u
+
+#define BLEND_FACTOR_ZERO 0u
+#define BLEND_FACTOR_ONE 1u
+#define BLEND_FACTOR_SOURCE_COLOR 2u
+#define BLEND_FACTOR_ONE_MINUS_SOURCE_COLOR 3u
+#define BLEND_FACTOR_DESTINATION_COLOR 4u
+#define BLEND_FACTOR_ONE_MINUS_DESTINATION_COLOR 5u
+#define BLEND_FACTOR_SOURCE_ALPHA 6u
+#define BLEND_FACTOR_ONE_MINUS_SOURCE_ALPHA 7u
+#define BLEND_FACTOR_DESTINATION_ALPHA 8u
+#define BLEND_FACTOR_ONE_MINUS_DESTINATION_ALPHA 9u
+#define BLEND_FACTOR_SOURCE_ALPHA_SATURATE 10u
+#define BLEND_FACTOR_CONSTANT_COLOR 11u
+#define BLEND_FACTOR_ONE_MINUS_CONSTANT_COLOR 12u
+#define BLEND_FACTOR_CONSTANT_ALPHA 13u
+#define BLEND_FACTOR_ONE_MINUS_CONSTANT_ALPHA 14u
+
+#define BLEND_EQUATION_ADD 0u
+#define BLEND_EQUATION_SUBTRACT 1u
+#define BLEND_EQUATION_REVERSE_SUBTRACT 2u
+#define BLEND_EQUATION_MIN 3u
+#define BLEND_EQUATION_MAX 4u
+
+#endif

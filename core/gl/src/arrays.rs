@@ -52,6 +52,14 @@ pub struct Array {
     pub source: Source,
 }
 
+impl Array {
+    /// Whether draws read it. A program that enables an array and never says where it is gets the current
+    /// value, as other libraries have it.
+    pub fn is_read(&self) -> bool {
+        self.enabled && !matches!(self.source, Source::Null)
+    }
+}
+
 /// The edge flags' slot among the arrays; it comes after the vertex attributes.
 pub const EDGE_FLAG: usize = SLOTS;
 /// The colour indices' slot.

@@ -11,7 +11,7 @@ use crate::assemble::{self, PolygonMode};
 use crate::context::Context;
 use crate::emit::Kind;
 use crate::frame::{RetainedRange, SLOTS, Slot, VertexLayout};
-use crate::gather::{Elements, component_bytes, stored_format};
+use crate::gather::{Elements, Shape, component_bytes, stored_format};
 use crate::limits;
 
 /// Retained ranges that are kept for arrays in buffer objects.
@@ -102,10 +102,10 @@ impl Context {
         let Ok(i) = usize::try_from(i) else { return self.record_error(GL_INVALID_VALUE) };
         // The position comes last, since it makes the vertex.
         for slot in (0..=EDGE_FLAG).rev() {
-            if !self.client.arrays[slot].enabled {
+            if !self.client.arrays[slot].is_read() {
                 continue;
             }
-            let value = self.with_elements(slot, i, 1, |elements| elements.get(0));
+            let value = self.with_elements(slot, i, 1, |elements| elements.first()).flatten();
             match (value, slot) {
                 (Some(value), 0) => self.vertex(value),
                 (Some(value), EDGE_FLAG) => self.edge_flag(value[0] != 0.0),
@@ -129,7 +129,7 @@ impl Context {
 
     fn draw_selection(&mut self, mode: u32, selection: Selection) {
         let (first, count) = selection.span();
-        if count == 0 || !self.client.arrays[Slot::Position as usize].enabled {
+        if count == 0 || !self.client.arrays[Slot::Position as usize].is_read() {
             return;
         }
         if count > limits::DRAW_VERTICES {
@@ -192,29 +192,28 @@ impl Context {
         }
     }
 
-    /// Copies `count` vertices from vertex `first` on; `None` if an array does not reach that far.
+    /// Copies `count` vertices from vertex `first` on; `None` if the positions do not reach that far. Other
+    /// arrays that end early give zeros: what they would give is undefined, and the rest of the draw is good.
     fn gather(&mut self, first: usize, count: usize, out: &mut Vec<u32>) -> Option<VertexLayout> {
+        // Checked before memory is taken for what the arrays claim to hold.
+        self.with_elements(Slot::Position as usize, first, count, |e| (e.count == count).then_some(()))??;
         let mut layout = VertexLayout::default();
-        for (slot, array) in self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.enabled) {
+        for (slot, array) in self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.is_read()) {
             layout = layout.with(slot, stored_format(array.size, array.kind, is_normalized(slot)));
         }
         let stride = layout.stride();
-        // Every array must reach that far before memory is taken for what they claim to hold.
-        for slot in (0..SLOTS).filter(|&slot| self.client.arrays[slot].enabled) {
-            self.with_elements(slot, first, count, |_| ())?;
-        }
         out.clear();
         out.resize(count.checked_mul(stride)?, 0);
         for slot in 0..SLOTS {
-            if self.client.arrays[slot].enabled {
+            if self.client.arrays[slot].is_read() {
                 let (format, offset) = (layout.format(slot), layout.offset(slot));
-                self.with_elements(slot, first, count, |e| e.store(count, format, out, offset, stride))?;
+                self.with_elements(slot, first, count, |e| e.store(format, out, offset, stride));
             }
         }
         Some(layout)
     }
 
-    /// Calls `f` with elements `first` to `first + count` of an array, if it has them.
+    /// Calls `f` with those of the elements `first` to `first + count` that an array has.
     fn with_elements<R>(
         &self,
         slot: usize,
@@ -228,25 +227,22 @@ impl Context {
             0 => size * component_bytes(kind),
             stride => stride,
         };
-        let (start, needed) = (first.checked_mul(stride)?, Elements::needed(stride, size, kind, count)?);
-        let normalized = is_normalized(slot);
+        let start = first.checked_mul(stride)?;
+        let shape = Shape { stride, size, kind, normalized: is_normalized(slot) };
         match &array.source {
             Source::Null => None,
-            Source::Blob(bytes) => {
-                let bytes = bytes.get(start..)?.get(..needed)?;
-                Some(f(Elements { bytes, stride, size, kind, normalized }))
-            }
+            Source::Blob(bytes) => Some(f(shape.elements(bytes.get(start..)?, count))),
             Source::Buffer(_, buffer, offset) => {
                 let buffer = buffer.lock();
-                let bytes = buffer.data.get(usize::try_from(*offset).ok()?..)?.get(start..)?.get(..needed)?;
-                Some(f(Elements { bytes, stride, size, kind, normalized }))
+                let bytes = buffer.data.get(usize::try_from(*offset).ok()?..)?.get(start..)?;
+                Some(f(shape.elements(bytes, count)))
             }
             Source::Memory(address) => {
-                let address = address.checked_add(start)?;
+                let (address, needed) = (address.checked_add(start)?, shape.bytes(count)?);
                 // SAFETY: whoever made the pointer promised that the program's memory can be read as far
                 // as its draws reach (the contract of glVertexPointer).
                 let bytes = unsafe { std::slice::from_raw_parts(address as *const u8, needed) };
-                Some(f(Elements { bytes, stride, size, kind, normalized }))
+                Some(f(shape.elements(bytes, count)))
             }
         }
     }
@@ -280,7 +276,7 @@ impl Context {
 
     /// Names what the draw would read, if all of it is in buffer objects.
     fn retained_key(&self, mode: u32, selection: &Selection) -> Option<u64> {
-        let arrays = self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.enabled);
+        let arrays = self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.is_read());
         if arrays.clone().any(|(_, array)| !matches!(array.source, Source::Buffer(..))) {
             return None;
         }

@@ -178,6 +178,18 @@ fn arrays_in_memory_are_copied_and_rebased() {
 }
 
 #[test]
+fn an_enabled_array_without_a_pointer_is_not_read() {
+    let frame = frame(|gl| {
+        gl.enable_client_state(GL_VERTEX_ARRAY);
+        gl.enable_client_state(GL_COLOR_ARRAY);
+        gl.color([0.0, 1.0, 0.0, 1.0]);
+        gl.vertex_pointer(2, GL_FLOAT, 0, positions(&[0.0; 6]));
+        gl.draw_arrays(GL_TRIANGLES, 0, 3);
+    });
+    assert_eq!(attribute(&frame, draws(&frame)[0], 0, Slot::Color), [0.0, 1.0, 0.0, 1.0]);
+}
+
+#[test]
 fn arrays_that_end_early_draw_nothing() {
     let frame = frame(|gl| {
         gl.enable_client_state(GL_VERTEX_ARRAY);

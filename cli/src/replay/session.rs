@@ -8,12 +8,13 @@ use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::{Frame, Operation};
 use afterglow_gpu::{DeviceInfo, Gpu};
 use afterglow_player::BackendFactory;
-use afterglow_render::{RenderOptions, Renderer};
+use afterglow_render::{self as render, Displaced, PathtraceOptions, RenderOptions, Renderer};
 use parking_lot::Mutex;
 
 use super::Arguments;
 use super::report::Finished;
 use crate::failure::Failure;
+use crate::options::Mode;
 
 /// `I:X,Y,Z`: which, and how far.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +86,10 @@ impl Session {
         let gpu = Gpu::new(&arguments.device.gpu_options())?;
         let mut options = RenderOptions::default();
         options.timing = arguments.wants_timing();
-        let renderer = Renderer::new(&gpu, &options).map_err(|error| Failure::Check(error.to_string()))?;
+        let mut renderer = Renderer::new(&gpu, &options).map_err(failed)?;
+        if arguments.mode == Mode::Pathtrace {
+            renderer.set_mode(render::Mode::Pathtrace, &pathtrace_options(arguments)).map_err(failed)?;
+        }
         Ok(Session { renderer: Arc::new(Mutex::new(renderer)), gpu, lit: Arc::new(AtomicBool::new(true)) })
     }
 
@@ -108,9 +112,10 @@ impl Session {
     /// Waits for the frame.
     pub fn finish_frame(&self) -> Result<Finished, Failure> {
         let mut renderer = self.renderer.lock();
+        // The report first: reading back is a submission of its own.
+        let rendered = renderer.frame_report().map_err(failed)?.clone();
         let pixels = renderer.read_color().map_err(failed)?;
         let [width, height] = renderer.size();
-        let rendered = renderer.frame_report().map_err(failed)?.clone();
         Ok(Finished { size: (width, height), hash: xxhash_rust::xxh3::xxh3_64(&pixels), pixels, rendered })
     }
 
@@ -118,6 +123,17 @@ impl Session {
     pub fn validation_messages(&self) -> Vec<String> {
         self.gpu.validation_messages()
     }
+}
+
+/// How the arguments want light to be traced.
+fn pathtrace_options(arguments: &Arguments) -> PathtraceOptions {
+    let mut options = PathtraceOptions::default();
+    options.spp = arguments.spp;
+    options.seed = arguments.seed;
+    options.move_light = arguments.debug_move_light.map(|moved| (moved.index as usize, moved.offset.into()));
+    options.move_draw =
+        arguments.debug_move_draw.map(|moved| (Displaced::Draw(moved.index), moved.offset.into()));
+    options
 }
 
 fn failed(error: impl ToString) -> Failure {

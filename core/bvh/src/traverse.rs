@@ -120,7 +120,7 @@ impl Group {
         let inner_mask = self.mask & 0xff;
         self.mask &= !(1 << bit);
         let slot = (bit - 24) ^ order;
-        let before = (inner_mask & !(u32::MAX << (slot ^ 1))).count_ones();
+        let before = (inner_mask & !(u32::MAX << slot)).count_ones();
         self.base.wrapping_add(before * NODE_UNITS)
     }
 

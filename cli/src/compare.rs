@@ -69,12 +69,17 @@ fn print(comparison: &Comparison) {
         line("blocks beyond 6", comparison.blocks_beyond_6);
     }
     if !comparison.all_finite() {
-        println!("pixels that are no numbers: {} and {}", comparison.non_finite, comparison.non_finite_reference);
+        println!(
+            "pixels that are no numbers: {} and {}",
+            comparison.non_finite, comparison.non_finite_reference
+        );
     }
 }
 
 fn judge(arguments: &Arguments, comparison: &Comparison) -> Result<(), Failure> {
-    if let Some(limit) = arguments.max_flip.filter(|limit| comparison.flip.is_nan() || comparison.flip > *limit) {
+    if let Some(limit) =
+        arguments.max_flip.filter(|limit| comparison.flip.is_nan() || comparison.flip > *limit)
+    {
         return Err(Failure::Check(format!("FLIP is {:.4}, more than {limit}", comparison.flip)));
     }
     let ssim = comparison.ssim.unwrap_or(0.0);

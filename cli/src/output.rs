@@ -17,9 +17,8 @@ pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Fail
 
 /// Writes a picture of RGBA bytes, top row first.
 pub fn write_picture(path: &Path, size: (u32, u32), rgba: &[u8]) -> Result<(), Failure> {
-    let failed = |error: &dyn std::fmt::Display| {
-        Failure::output(path, std::io::Error::other(error.to_string()))
-    };
+    let failed =
+        |error: &dyn std::fmt::Display| Failure::output(path, std::io::Error::other(error.to_string()));
     let image = afterglow_metrics::Image::from_rgba8(size.0 as usize, size.1 as usize, rgba)
         .map_err(|error| failed(&error))?;
     afterglow_metrics::io::save(&image, path).map_err(|error| failed(&error))

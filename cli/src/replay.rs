@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use afterglow_player::{Player, TraceSummary};
+use afterglow_render::{Displaced, Paint, PathtraceOptions};
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -49,6 +50,12 @@ pub struct Arguments {
     /// Print figures: frame rate, passes, calls
     #[arg(long)]
     stats: bool,
+    /// Leave the noise of few samples in the picture
+    #[arg(long)]
+    no_filter: bool,
+    /// Show what the light is made of instead of the picture
+    #[arg(long, value_enum, value_name = "VIEW")]
+    paint: Option<View>,
     /// Move light I by X,Y,Z (world units), to see its shadows follow
     #[arg(long, value_name = "I:X,Y,Z", hide_short_help = true)]
     pub debug_move_light: Option<session::Move>,
@@ -70,9 +77,47 @@ pub enum Format {
 }
 
 impl Arguments {
+    /// How to trace.
+    fn pathtrace_options(&self) -> PathtraceOptions {
+        let mut options = PathtraceOptions::default();
+        (options.spp, options.seed) = (self.spp, self.seed);
+        options.filter = !self.no_filter;
+        options.paint = self.paint.map_or(Paint::Picture, View::paint);
+        options.move_light = self.debug_move_light.map(|m| (m.index as usize, m.offset.into()));
+        options.move_draw = self.debug_move_draw.map(|m| (Displaced::Draw(m.index), m.offset.into()));
+        options
+    }
+
     /// Whether anybody will read how long the passes took.
     fn wants_timing(&self) -> bool {
         self.stats || self.json.is_some()
+    }
+}
+
+/// What a path-traced picture can show instead of itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum View {
+    /// How light is found: a colour a kind of surface.
+    Kind,
+    /// Shading normals.
+    Normal,
+    /// Albedo.
+    Albedo,
+    /// Direct light.
+    Direct,
+    /// Indirect light.
+    Indirect,
+}
+
+impl View {
+    fn paint(self) -> Paint {
+        match self {
+            View::Kind => Paint::Kind,
+            View::Normal => Paint::Normal,
+            View::Albedo => Paint::Albedo,
+            View::Direct => Paint::Direct,
+            View::Indirect => Paint::Indirect,
+        }
     }
 }
 
@@ -135,14 +180,21 @@ fn conclude(
     }
     let messages = session.validation_messages();
     if !messages.is_empty() {
-        return Err(Failure::Check(format!("validation: {} messages\n{}", messages.len(), messages.join("\n"))));
+        return Err(Failure::Check(format!(
+            "validation: {} messages\n{}",
+            messages.len(),
+            messages.join("\n")
+        )));
     }
     if let Some(failure) = &summary.failure {
         return Err(Failure::input(&arguments.trace, format!("{failure}; what comes before was played")));
     }
     failure::trace_end(&arguments.trace, summary.end)?;
     if report.is_empty() {
-        return Err(Failure::Usage(format!("the trace has {} frames, none of those asked for", summary.swaps)));
+        return Err(Failure::Usage(format!(
+            "the trace has {} frames, none of those asked for",
+            summary.swaps
+        )));
     }
     Ok(())
 }

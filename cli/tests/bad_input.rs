@@ -66,7 +66,9 @@ fn no_such_device() {
 #[test]
 fn absurd_arguments() {
     let trace = data("glxgears.trace");
-    for arguments in [["--size", "0x0"], ["--size", "100000x9"], ["--frames", "9..3"], ["--spp", "0"], ["--every", "0"]] {
+    for arguments in
+        [["--size", "0x0"], ["--size", "100000x9"], ["--frames", "9..3"], ["--spp", "0"], ["--every", "0"]]
+    {
         let (code, said) = run(&["replay", path(&trace), arguments[0], arguments[1]]);
         assert_eq!(code, 2, "{arguments:?}: {said}");
     }

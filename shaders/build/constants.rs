@@ -22,6 +22,5 @@ pub fn write(shaders: &[Shader], path: &Path) -> Result<(), String> {
             shader.spirv
         );
     }
-    std::fs::write(path, text)
-        .map_err(|error| format!("could not write {}: {error}", path.display()))
+    std::fs::write(path, text).map_err(|error| format!("could not write {}: {error}", path.display()))
 }

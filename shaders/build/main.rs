@@ -20,9 +20,7 @@ pub struct Shader {
     pub spirv: PathBuf,
 }
 
-const STAGES: [&str; 8] = [
-    "vert", "frag", "comp", "rgen", "rmiss", "rchit", "rahit", "rint",
-];
+const STAGES: [&str; 8] = ["vert", "frag", "comp", "rgen", "rmiss", "rchit", "rahit", "rint"];
 
 fn main() -> ExitCode {
     for input in ["pass", "include", "build"] {
@@ -55,11 +53,7 @@ fn find_shaders(root: &Path, out: &Path) -> Result<Vec<Shader>, String> {
             };
             let constant = constant_name(folder, &source, stage);
             let spirv = out.join(format!("{}.spv", constant.to_lowercase()));
-            shaders.push(Shader {
-                source,
-                constant,
-                spirv,
-            });
+            shaders.push(Shader { source, constant, spirv });
         }
     }
     shaders.sort_by(|a, b| a.constant.cmp(&b.constant));
@@ -87,11 +81,7 @@ fn constant_name(folder: &Path, source: &Path, stage: &str) -> String {
         stem.to_string_lossy().replace('-', "_")
     };
     let (pass, file) = (name(folder), name(source));
-    let words = if pass == file {
-        format!("{pass}_{stage}")
-    } else {
-        format!("{pass}_{file}_{stage}")
-    };
+    let words = if pass == file { format!("{pass}_{stage}") } else { format!("{pass}_{file}_{stage}") };
     words.to_uppercase()
 }
 
@@ -108,21 +98,13 @@ fn compile_all(shaders: &[Shader]) -> Result<(), String> {
         failures
     };
     let failures: Vec<String> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..jobs.min(shaders.len()).max(1))
-            .map(|_| scope.spawn(work))
-            .collect();
+        let workers: Vec<_> = (0..jobs.min(shaders.len()).max(1)).map(|_| scope.spawn(work)).collect();
         workers
             .into_iter()
             .flat_map(|worker| {
-                worker
-                    .join()
-                    .unwrap_or_else(|_| vec!["a compiling thread panicked".to_owned()])
+                worker.join().unwrap_or_else(|_| vec!["a compiling thread panicked".to_owned()])
             })
             .collect()
     });
-    if failures.is_empty() {
-        Ok(())
-    } else {
-        Err(failures.join("\n"))
-    }
+    if failures.is_empty() { Ok(()) } else { Err(failures.join("\n")) }
 }

@@ -10,12 +10,7 @@ const fn words<const N: usize>(bytes: &[u8]) -> [u32; N] {
     let mut words = [0; N];
     let mut i = 0;
     while i < N {
-        words[i] = u32::from_le_bytes([
-            bytes[4 * i],
-            bytes[4 * i + 1],
-            bytes[4 * i + 2],
-            bytes[4 * i + 3],
-        ]);
+        words[i] = u32::from_le_bytes([bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2], bytes[4 * i + 3]]);
         i += 1;
     }
     words

@@ -8,7 +8,7 @@ use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::{Frame, Operation};
 use afterglow_gpu::{DeviceInfo, Gpu};
 use afterglow_player::BackendFactory;
-use afterglow_render::{self as render, Displaced, PathtraceOptions, RenderOptions, Renderer};
+use afterglow_render::{self as render, RenderOptions, Renderer};
 use parking_lot::Mutex;
 
 use super::Arguments;
@@ -88,7 +88,7 @@ impl Session {
         options.timing = arguments.wants_timing();
         let mut renderer = Renderer::new(&gpu, &options).map_err(failed)?;
         if arguments.mode == Mode::Pathtrace {
-            renderer.set_mode(render::Mode::Pathtrace, &pathtrace_options(arguments)).map_err(failed)?;
+            renderer.set_mode(render::Mode::Pathtrace, &arguments.pathtrace_options()).map_err(failed)?;
         }
         Ok(Session { renderer: Arc::new(Mutex::new(renderer)), gpu, lit: Arc::new(AtomicBool::new(true)) })
     }
@@ -123,17 +123,6 @@ impl Session {
     pub fn validation_messages(&self) -> Vec<String> {
         self.gpu.validation_messages()
     }
-}
-
-/// How the arguments want light to be traced.
-fn pathtrace_options(arguments: &Arguments) -> PathtraceOptions {
-    let mut options = PathtraceOptions::default();
-    options.spp = arguments.spp;
-    options.seed = arguments.seed;
-    options.move_light = arguments.debug_move_light.map(|moved| (moved.index as usize, moved.offset.into()));
-    options.move_draw =
-        arguments.debug_move_draw.map(|moved| (Displaced::Draw(moved.index), moved.offset.into()));
-    options
 }
 
 fn failed(error: impl ToString) -> Failure {

@@ -8,8 +8,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use afterglow_frame_graph::{
-    Access, Format, GraphBuilder, GraphError, ImageDesc, PassKind, ResourceDesc, ResourceId,
-    ResourceState,
+    Access, Format, GraphBuilder, GraphError, ImageDesc, PassKind, ResourceDesc, ResourceId, ResourceState,
 };
 
 const TEXTURES: usize = 256;
@@ -24,9 +23,8 @@ fn declare(passes: usize) -> GraphBuilder {
     let vertices = graph.import("vertices", vertices, ResourceState::SETTLED);
     let sampled = ResourceState::after(Access::SampledFragment);
     let texture = ImageDesc::flat((256, 256), Format::Rgba8Unorm);
-    let textures: Vec<ResourceId> = (0..TEXTURES)
-        .map(|_| graph.import("texture", texture, sampled))
-        .collect();
+    let textures: Vec<ResourceId> =
+        (0..TEXTURES).map(|_| graph.import("texture", texture, sampled)).collect();
     graph.output(color);
     textures.iter().for_each(|texture| graph.output(*texture));
 
@@ -48,10 +46,7 @@ fn declare(passes: usize) -> GraphBuilder {
             .read_write(color, Access::ColorAttachment)
             .read_write(depth, Access::DepthAttachment);
         for offset in 0..4 {
-            pass.read(
-                textures[(index * 7 + offset) % TEXTURES],
-                Access::SampledFragment,
-            );
+            pass.read(textures[(index * 7 + offset) % TEXTURES], Access::SampledFragment);
         }
     }
     graph
@@ -78,11 +73,7 @@ fn main() -> Result<(), GraphError> {
     for passes in [10, 100, 1_000, 10_000, 100_000] {
         let (declare, compile, barriers) = measure(passes)?;
         let each = |time: Duration| time.as_secs_f64() * 1e9 / passes as f64;
-        println!(
-            "{passes:6} {barriers:9} {:16.1} {:16.1}",
-            each(declare),
-            each(compile)
-        );
+        println!("{passes:6} {barriers:9} {:16.1} {:16.1}", each(declare), each(compile));
     }
     Ok(())
 }

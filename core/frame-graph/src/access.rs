@@ -207,9 +207,7 @@ impl Access {
             Layout::Undefined => false,
             Layout::ColorAttachment | Layout::Present => !format.is_depth_stencil(),
             Layout::DepthAttachment | Layout::DepthRead => format.is_depth_stencil(),
-            Layout::General | Layout::ShaderRead | Layout::TransferSrc | Layout::TransferDst => {
-                true
-            }
+            Layout::General | Layout::ShaderRead | Layout::TransferSrc | Layout::TransferDst => true,
         }
     }
 

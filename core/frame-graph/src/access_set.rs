@@ -71,9 +71,7 @@ impl AccessSet {
         let Some(first) = accesses.next() else {
             return Some(Layout::Undefined);
         };
-        accesses.try_fold(first.layout(), |layout, access| {
-            layout.join(access.layout())
-        })
+        accesses.try_fold(first.layout(), |layout, access| layout.join(access.layout()))
     }
 
     /// Whether one pass may touch one resource in all these ways at once. A write tolerates
@@ -82,8 +80,7 @@ impl AccessSet {
         let Some(write) = self.iter().find(|access| access.writes()) else {
             return true;
         };
-        let tolerated =
-            Self::of(write) | write.read_counterpart().map(Self::of).unwrap_or_default();
+        let tolerated = Self::of(write) | write.read_counterpart().map(Self::of).unwrap_or_default();
         self.without(tolerated).is_empty()
     }
 }
@@ -96,9 +93,7 @@ impl From<Access> for AccessSet {
 
 impl FromIterator<Access> for AccessSet {
     fn from_iter<I: IntoIterator<Item = Access>>(accesses: I) -> Self {
-        accesses
-            .into_iter()
-            .fold(Self::EMPTY, |set, access| set | Self::of(access))
+        accesses.into_iter().fold(Self::EMPTY, |set, access| set | Self::of(access))
     }
 }
 
@@ -140,14 +135,8 @@ mod tests {
     #[test]
     fn layouts_join_only_where_one_serves_all() {
         use Access::*;
-        assert_eq!(
-            set([SampledFragment, SampledCompute]).layout(),
-            Some(Layout::ShaderRead)
-        );
-        assert_eq!(
-            set([DepthRead, SampledFragment]).layout(),
-            Some(Layout::DepthRead)
-        );
+        assert_eq!(set([SampledFragment, SampledCompute]).layout(), Some(Layout::ShaderRead));
+        assert_eq!(set([DepthRead, SampledFragment]).layout(), Some(Layout::DepthRead));
         assert_eq!(set([SampledFragment, TransferSrc]).layout(), None);
     }
 

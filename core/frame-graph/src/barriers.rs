@@ -57,11 +57,7 @@ pub(crate) fn plan(
         }
         ends.push(barriers.len() as u32);
     }
-    BarrierPlan {
-        barriers,
-        ends,
-        final_states: runs.iter().map(Run::state).collect(),
-    }
+    BarrierPlan { barriers, ends, final_states: runs.iter().map(Run::state).collect() }
 }
 
 /// The current run of a resource.
@@ -91,11 +87,7 @@ impl Run {
             accesses,
             layout,
             defined: state.is_defined(),
-            opening: if accesses.is_empty() {
-                Opening::Settled
-            } else {
-                Opening::Earlier
-            },
+            opening: if accesses.is_empty() { Opening::Settled } else { Opening::Earlier },
         }
     }
 
@@ -141,12 +133,7 @@ impl Run {
         if !self.accesses.is_empty() || self.layout != used.layout {
             barriers.push(self.barrier_to(used, used.accesses));
         }
-        *self = Self {
-            accesses: used.accesses,
-            layout: used.layout,
-            defined: true,
-            opening,
-        };
+        *self = Self { accesses: used.accesses, layout: used.layout, defined: true, opening };
     }
 
     fn barrier_to(&self, used: &ResourceUse, to: AccessSet) -> Barrier {
@@ -154,11 +141,7 @@ impl Run {
             resource: used.resource,
             from: self.accesses,
             to,
-            from_layout: if used.discards() {
-                Layout::Undefined
-            } else {
-                self.layout
-            },
+            from_layout: if used.discards() { Layout::Undefined } else { self.layout },
             to_layout: used.layout,
             discard: used.discards(),
         }
@@ -235,10 +218,7 @@ mod tests {
         assert!(first.discard && first.from.is_empty());
         assert_eq!(read.from, set([TransferDst]));
         assert_eq!(read.to, set([SampledFragment, SampledCompute]));
-        assert_eq!(
-            (read.from_layout, read.to_layout),
-            (Layout::TransferDst, Layout::ShaderRead)
-        );
+        assert_eq!((read.from_layout, read.to_layout), (Layout::TransferDst, Layout::ShaderRead));
         assert_eq!(last.from, read.to);
         assert_eq!((last.from_layout, last.discard), (Layout::Undefined, true));
     }
@@ -249,10 +229,7 @@ mod tests {
         let state = ResourceState::after(TransferDst);
         let graph = compile(BUFFER, state, &passes);
         assert_eq!(graph.barriers().len(), 1);
-        assert_eq!(
-            graph.barriers()[0].to,
-            set([StorageReadFragment, TransferSrc])
-        );
+        assert_eq!(graph.barriers()[0].to, set([StorageReadFragment, TransferSrc]));
         let graph = compile(image(), state, &passes);
         assert_eq!(graph.barriers().len(), 2);
         assert_eq!(graph.barriers()[1].from, set([StorageReadFragment]));
@@ -261,10 +238,7 @@ mod tests {
 
     #[test]
     fn writes_wait_for_writes_and_keep_what_they_modify() {
-        let twice = [
-            (DRAW, Modify, ColorAttachment),
-            (DRAW, Modify, ColorAttachment),
-        ];
+        let twice = [(DRAW, Modify, ColorAttachment), (DRAW, Modify, ColorAttachment)];
         let graph = compile(image(), ResourceState::after(ColorAttachment), &twice);
         for barrier in graph.barriers() {
             assert_eq!(barrier.from, set([ColorAttachment]));
@@ -279,10 +253,7 @@ mod tests {
         let state = ResourceState::after(SampledFragment);
         let graph = compile(image(), state, &[(DRAW, Read, SampledFragment)]);
         assert!(graph.barriers().is_empty());
-        let twice = [
-            (DISPATCH, Read, SampledCompute),
-            (DISPATCH, Read, SampledCompute),
-        ];
+        let twice = [(DISPATCH, Read, SampledCompute), (DISPATCH, Read, SampledCompute)];
         let graph = compile(image(), state, &twice);
         assert_eq!(graph.barriers().len(), 1);
         assert_eq!(graph.barriers()[0].from, set([SampledFragment]));
@@ -303,10 +274,7 @@ mod tests {
             ],
         );
         assert_eq!(graph.barriers().len(), 1);
-        assert_eq!(
-            graph.barriers()[0].from,
-            set([VertexRead, StorageReadCompute])
-        );
+        assert_eq!(graph.barriers()[0].from, set([VertexRead, StorageReadCompute]));
     }
 
     #[test]
@@ -333,14 +301,8 @@ mod tests {
         let texture = graph.import("texture", image(), sampled);
         graph.output(color);
         for _ in 0..10_000 {
-            graph
-                .pass("copy", COPY)
-                .read(color, TransferSrc)
-                .write(texture, TransferDst);
-            graph
-                .pass("draw", DRAW)
-                .read(texture, SampledFragment)
-                .read_write(color, ColorAttachment);
+            graph.pass("copy", COPY).read(color, TransferSrc).write(texture, TransferDst);
+            graph.pass("draw", DRAW).read(texture, SampledFragment).read_write(color, ColorAttachment);
         }
         let graph = graph.compile().unwrap();
         assert_eq!(graph.steps().len(), 20_000);

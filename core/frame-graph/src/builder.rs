@@ -7,8 +7,7 @@ use crate::compile::compile;
 use crate::pass::{Declared, DeclaredAccess, Mode, Pass};
 use crate::resource::Resource;
 use crate::{
-    Access, CompiledGraph, GraphError, PassId, PassKind, Residence, ResourceDesc, ResourceId,
-    ResourceState,
+    Access, CompiledGraph, GraphError, PassId, PassKind, Residence, ResourceDesc, ResourceId, ResourceState,
 };
 
 /// Collects the resources and passes of one frame.
@@ -72,9 +71,7 @@ impl GraphBuilder {
             has_side_effect: false,
             not_required: None,
         });
-        PassBuilder {
-            declared: &mut self.declared,
-        }
+        PassBuilder { declared: &mut self.declared }
     }
 
     /// Runs the phases of the compiler.
@@ -93,12 +90,7 @@ impl GraphBuilder {
         initial: ResourceState,
     ) -> ResourceId {
         let id = ResourceId(self.declared.resources.len() as u32);
-        self.declared.resources.push(Resource {
-            name,
-            desc,
-            residence,
-            initial,
-        });
+        self.declared.resources.push(Resource { name, desc, residence, initial });
         id
     }
 }
@@ -149,11 +141,7 @@ impl PassBuilder<'_> {
     }
 
     fn declare(&mut self, resource: ResourceId, access: Access, mode: Mode) -> &mut Self {
-        self.declared.accesses.push(DeclaredAccess {
-            resource,
-            access,
-            mode,
-        });
+        self.declared.accesses.push(DeclaredAccess { resource, access, mode });
         self
     }
 

@@ -20,11 +20,7 @@ pub(crate) struct CheckedResource {
 /// Checks sizes, states, keys and outputs.
 pub(crate) fn resources(declared: &Declared) -> Result<Vec<CheckedResource>, GraphError> {
     check_keys(&declared.resources)?;
-    let mut checked = declared
-        .resources
-        .iter()
-        .map(check_resource)
-        .collect::<Result<Vec<_>, _>>()?;
+    let mut checked = declared.resources.iter().map(check_resource).collect::<Result<Vec<_>, _>>()?;
     for output in &declared.outputs {
         let unknown = GraphError::UnknownOutput { resource: output.0 };
         let resource = declared.resources.get(output.index()).ok_or(unknown)?;
@@ -38,22 +34,13 @@ pub(crate) fn resources(declared: &Declared) -> Result<Vec<CheckedResource>, Gra
 }
 
 fn check_resource(resource: &Resource) -> Result<CheckedResource, GraphError> {
-    let bytes = resource.desc.bytes().ok_or_else(|| GraphError::BadSize {
+    let bytes =
+        resource.desc.bytes().ok_or_else(|| GraphError::BadSize { resource: resource.name.to_string() })?;
+    let initial_layout = resource.initial.layout(&resource.desc).ok_or_else(|| GraphError::BadState {
         resource: resource.name.to_string(),
+        accesses: resource.initial.accesses(),
     })?;
-    let initial_layout =
-        resource
-            .initial
-            .layout(&resource.desc)
-            .ok_or_else(|| GraphError::BadState {
-                resource: resource.name.to_string(),
-                accesses: resource.initial.accesses(),
-            })?;
-    Ok(CheckedResource {
-        bytes,
-        initial_layout,
-        is_output: false,
-    })
+    Ok(CheckedResource { bytes, initial_layout, is_output: false })
 }
 
 /// Two history resources of one key would be the same memory under two ids.
@@ -64,9 +51,7 @@ fn check_keys(resources: &[Resource]) -> Result<(), GraphError> {
         .filter(|resource| resource.residence == Residence::History)
         .find(|resource| !keys.insert(&resource.name));
     match repeated {
-        Some(resource) => Err(GraphError::DuplicateHistory {
-            key: resource.name.to_string(),
-        }),
+        Some(resource) => Err(GraphError::DuplicateHistory { key: resource.name.to_string() }),
         None => Ok(()),
     }
 }

@@ -12,13 +12,5 @@ pub(crate) fn compile(declared: Declared) -> Result<CompiledGraph, GraphError> {
     let order = order::live_passes(&declared, &uses, &fates)?;
     let lifetimes = lifetimes::measure(&checked, &uses, &order);
     let plan = barriers::plan(&declared.resources, &checked, &uses, &order);
-    Ok(CompiledGraph {
-        declared,
-        checked,
-        uses,
-        fates,
-        order,
-        lifetimes,
-        plan,
-    })
+    Ok(CompiledGraph { declared, checked, uses, fates, order, lifetimes, plan })
 }

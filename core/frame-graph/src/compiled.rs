@@ -6,8 +6,8 @@ use crate::cull::Fate;
 use crate::pass::Declared;
 use crate::uses::Uses;
 use crate::{
-    Barrier, CullReason, Lifetime, PassId, PassKind, Residence, ResourceDesc, ResourceId,
-    ResourceState, ResourceUse,
+    Barrier, CullReason, Lifetime, PassId, PassKind, Residence, ResourceDesc, ResourceId, ResourceState,
+    ResourceUse,
 };
 
 /// What the compiler made of a frame. Ids are those of the builder; an id that the graph does not
@@ -34,18 +34,12 @@ impl CompiledGraph {
     /// The live passes in order, each with the barriers that come before it.
     pub fn steps(&self) -> impl ExactSizeIterator<Item = Step<'_>> {
         let mut start = 0;
-        self.order
-            .iter()
-            .zip(&self.plan.ends)
-            .map(move |(pass, end)| {
-                let end = *end as usize;
-                let barriers = &self.plan.barriers[start..end];
-                start = end;
-                Step {
-                    pass: *pass,
-                    barriers,
-                }
-            })
+        self.order.iter().zip(&self.plan.ends).map(move |(pass, end)| {
+            let end = *end as usize;
+            let barriers = &self.plan.barriers[start..end];
+            start = end;
+            Step { pass: *pass, barriers }
+        })
     }
 
     /// All barriers, in the order in which steps need them.
@@ -66,10 +60,9 @@ impl CompiledGraph {
         match self.fates.get(pass.index())? {
             Fate::Live => None,
             Fate::Unused => Some(CullReason::UnusedResult),
-            Fate::NotRequired => self.declared.passes[pass.index()]
-                .not_required
-                .clone()
-                .map(CullReason::NotRequired),
+            Fate::NotRequired => {
+                self.declared.passes[pass.index()].not_required.clone().map(CullReason::NotRequired)
+            }
         }
     }
 
@@ -88,11 +81,7 @@ impl CompiledGraph {
 
     /// What a pass does to each resource, live or not; empty for an unknown pass.
     pub fn uses_of(&self, pass: PassId) -> &[ResourceUse] {
-        if pass.index() < self.fates.len() {
-            self.uses.of(pass)
-        } else {
-            &[]
-        }
+        if pass.index() < self.fates.len() { self.uses.of(pass) } else { &[] }
     }
 
     /// All resources, in the order of declaration.

@@ -46,8 +46,7 @@ pub(crate) fn fates(declared: &Declared, checked: &[CheckedResource], uses: &Use
         fates[index] = fate(pass, uses, &needed);
         if fates[index] == Fate::Live {
             for used in uses {
-                needed[used.resource.index()] =
-                    used.reads || (needed[used.resource.index()] && !used.writes);
+                needed[used.resource.index()] = used.reads || (needed[used.resource.index()] && !used.writes);
             }
         }
     }
@@ -55,10 +54,7 @@ pub(crate) fn fates(declared: &Declared, checked: &[CheckedResource], uses: &Use
 }
 
 fn fate(pass: &Pass, uses: &[ResourceUse], needed: &[bool]) -> Fate {
-    let writes_needed = || {
-        uses.iter()
-            .any(|used| used.writes && needed[used.resource.index()])
-    };
+    let writes_needed = || uses.iter().any(|used| used.writes && needed[used.resource.index()]);
     if pass.not_required.is_some() {
         Fate::NotRequired
     } else if pass.has_side_effect || writes_needed() {
@@ -75,10 +71,7 @@ mod tests {
     const BUFFER: ResourceDesc = ResourceDesc::Buffer { bytes: 16 };
 
     fn live(graph: &CompiledGraph) -> Vec<&str> {
-        graph
-            .steps()
-            .filter_map(|step| graph.pass_name(step.pass))
-            .collect()
+        graph.steps().filter_map(|step| graph.pass_name(step.pass)).collect()
     }
 
     #[test]
@@ -87,19 +80,10 @@ mod tests {
         let out = graph.import("out", BUFFER, ResourceState::UNDEFINED);
         let [used, unused] = ["used", "unused"].map(|name| graph.transient(name, BUFFER));
         graph.output(out);
-        graph
-            .pass("a", PassKind::Compute)
-            .write(used, StorageWriteCompute);
-        graph
-            .pass("b", PassKind::Compute)
-            .write(unused, StorageWriteCompute);
-        graph
-            .pass("c", PassKind::Compute)
-            .read(used, StorageReadCompute)
-            .write(out, StorageWriteCompute);
-        graph
-            .pass("d", PassKind::Compute)
-            .read(out, StorageReadCompute);
+        graph.pass("a", PassKind::Compute).write(used, StorageWriteCompute);
+        graph.pass("b", PassKind::Compute).write(unused, StorageWriteCompute);
+        graph.pass("c", PassKind::Compute).read(used, StorageReadCompute).write(out, StorageWriteCompute);
+        graph.pass("d", PassKind::Compute).read(out, StorageReadCompute);
         let graph = graph.compile().unwrap();
         assert_eq!(live(&graph), ["a", "c"]);
         let culled: Vec<_> = graph
@@ -116,9 +100,7 @@ mod tests {
             let mut graph = GraphBuilder::new();
             let out = graph.import("out", BUFFER, ResourceState::UNDEFINED);
             graph.output(out);
-            graph
-                .pass("first", PassKind::Compute)
-                .write(out, StorageWriteCompute);
+            graph.pass("first", PassKind::Compute).write(out, StorageWriteCompute);
             let mut second = graph.pass("second", PassKind::Compute);
             if modifies {
                 second.read_write(out, StorageWriteCompute);
@@ -134,9 +116,7 @@ mod tests {
     fn imports_that_are_no_outputs_keep_nobody_alive() {
         let mut graph = GraphBuilder::new();
         let scratch = graph.import("scratch", BUFFER, ResourceState::UNDEFINED);
-        graph
-            .pass("fill", PassKind::Transfer)
-            .write(scratch, TransferDst);
+        graph.pass("fill", PassKind::Transfer).write(scratch, TransferDst);
         assert!(live(&graph.compile().unwrap()).is_empty());
     }
 
@@ -144,13 +124,8 @@ mod tests {
     fn side_effects_live_unless_not_required() {
         let mut graph = GraphBuilder::new();
         let buffer = graph.transient("buffer", BUFFER);
-        graph
-            .pass("fill", PassKind::Transfer)
-            .write(buffer, TransferDst);
-        graph
-            .pass("answer", PassKind::Transfer)
-            .read(buffer, HostRead)
-            .side_effect();
+        graph.pass("fill", PassKind::Transfer).write(buffer, TransferDst);
+        graph.pass("answer", PassKind::Transfer).read(buffer, HostRead).side_effect();
         graph
             .pass("sun", PassKind::Compute)
             .side_effect()
@@ -159,10 +134,7 @@ mod tests {
             .when(false, "second reason");
         let graph = graph.compile().unwrap();
         assert_eq!(live(&graph), ["fill", "answer"]);
-        let reasons: Vec<_> = graph
-            .culled()
-            .map(|(_, reason)| reason.to_string())
-            .collect();
+        let reasons: Vec<_> = graph.culled().map(|(_, reason)| reason.to_string()).collect();
         assert_eq!(reasons, ["no sun"]);
     }
 }

@@ -20,48 +20,25 @@ pub enum GraphError {
     BadSize { resource: String },
 
     #[error("resource '{resource}' cannot be in the state {accesses:?}")]
-    BadState {
-        resource: String,
-        accesses: AccessSet,
-    },
+    BadState { resource: String, accesses: AccessSet },
 
     #[error("history '{key}' is declared twice")]
     DuplicateHistory { key: String },
 
     #[error("pass '{pass}' reads '{resource}' by {access:?}, which writes")]
-    ReadByWritingAccess {
-        pass: String,
-        resource: String,
-        access: Access,
-    },
+    ReadByWritingAccess { pass: String, resource: String, access: Access },
 
     #[error("pass '{pass}' writes '{resource}' by {access:?}, which only reads")]
-    WriteByReadingAccess {
-        pass: String,
-        resource: String,
-        access: Access,
-    },
+    WriteByReadingAccess { pass: String, resource: String, access: Access },
 
     #[error("pass '{pass}' is of kind {kind:?} and has no stage for {access:?}")]
-    WrongKind {
-        pass: String,
-        kind: PassKind,
-        access: Access,
-    },
+    WrongKind { pass: String, kind: PassKind, access: Access },
 
     #[error("pass '{pass}' uses '{resource}' by {access:?}, which is not for such a resource")]
-    WrongResource {
-        pass: String,
-        resource: String,
-        access: Access,
-    },
+    WrongResource { pass: String, resource: String, access: Access },
 
     #[error("pass '{pass}' uses '{resource}' in ways that exclude each other: {accesses:?}")]
-    Conflict {
-        pass: String,
-        resource: String,
-        accesses: AccessSet,
-    },
+    Conflict { pass: String, resource: String, accesses: AccessSet },
 
     #[error("pass '{pass}' reads '{resource}', which nothing has written")]
     NeverWritten { pass: String, resource: String },
@@ -69,10 +46,5 @@ pub enum GraphError {
     #[error(
         "pass '{pass}' reads '{resource}', which pass '{writer}' would have written, but that was not required: {reason}"
     )]
-    WriterNotRequired {
-        pass: String,
-        resource: String,
-        writer: String,
-        reason: String,
-    },
+    WriterNotRequired { pass: String, resource: String, writer: String, reason: String },
 }

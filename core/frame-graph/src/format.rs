@@ -56,11 +56,7 @@ impl Format {
             | Self::D32Float
             | Self::D24UnormS8Uint => 4,
             Self::D32FloatS8Uint => 5,
-            Self::Rgba16Unorm
-            | Self::Rgba16Snorm
-            | Self::Rgba16Float
-            | Self::Rg32Uint
-            | Self::Rg32Float => 8,
+            Self::Rgba16Unorm | Self::Rgba16Snorm | Self::Rgba16Float | Self::Rg32Uint | Self::Rg32Float => 8,
             Self::Rgba32Uint | Self::Rgba32Float => 16,
         }
     }
@@ -69,11 +65,7 @@ impl Format {
     pub const fn is_depth_stencil(self) -> bool {
         matches!(
             self,
-            Self::D16Unorm
-                | Self::D32Float
-                | Self::S8Uint
-                | Self::D24UnormS8Uint
-                | Self::D32FloatS8Uint
+            Self::D16Unorm | Self::D32Float | Self::S8Uint | Self::D24UnormS8Uint | Self::D32FloatS8Uint
         )
     }
 }

@@ -32,8 +32,7 @@ impl HistoryStates {
         let resources = graph.declared.resources.iter();
         for (resource, state) in resources.zip(&graph.plan.final_states) {
             if resource.residence == Residence::History {
-                self.states
-                    .insert(resource.name.clone(), (resource.desc, *state));
+                self.states.insert(resource.name.clone(), (resource.desc, *state));
             }
         }
     }
@@ -57,9 +56,7 @@ mod tests {
         let key = "accumulated";
         let history = graph.history(key, BUFFER, states.state(key, BUFFER));
         graph.output(history);
-        graph
-            .pass("accumulate", PassKind::Compute)
-            .write(history, Access::StorageWriteCompute);
+        graph.pass("accumulate", PassKind::Compute).write(history, Access::StorageWriteCompute);
         let graph = graph.compile().unwrap();
         states.advance(&graph);
         graph.barriers().len()

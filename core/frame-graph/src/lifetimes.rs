@@ -20,11 +20,7 @@ pub struct Lifetime {
 
 /// The lifetime of each resource, in the order of declaration; none for those that no live pass
 /// touches.
-pub(crate) fn measure(
-    checked: &[CheckedResource],
-    uses: &Uses,
-    order: &[PassId],
-) -> Vec<Option<Lifetime>> {
+pub(crate) fn measure(checked: &[CheckedResource], uses: &Uses, order: &[PassId]) -> Vec<Option<Lifetime>> {
     let mut lifetimes = vec![None; checked.len()];
     for (step, pass) in order.iter().enumerate() {
         let step = step as u32;
@@ -56,26 +52,16 @@ mod tests {
         let next = graph.history("b", buffer, past);
         let [noisy, dead] = ["noisy", "dead"].map(|name| graph.transient(name, buffer));
         graph.output(next);
-        graph
-            .pass("dead", PassKind::Compute)
-            .write(dead, StorageWriteCompute);
-        graph
-            .pass("light", PassKind::Compute)
-            .write(noisy, StorageWriteCompute);
+        graph.pass("dead", PassKind::Compute).write(dead, StorageWriteCompute);
+        graph.pass("light", PassKind::Compute).write(noisy, StorageWriteCompute);
         graph
             .pass("accumulate", PassKind::Compute)
             .read(noisy, StorageReadCompute)
             .read(previous, StorageReadCompute)
             .write(next, StorageWriteCompute);
         let graph = graph.compile().unwrap();
-        let span = |first, last, carried_in, carried_out| {
-            Some(Lifetime {
-                first,
-                last,
-                carried_in,
-                carried_out,
-            })
-        };
+        let span =
+            |first, last, carried_in, carried_out| Some(Lifetime { first, last, carried_in, carried_out });
         assert_eq!(graph.lifetime(noisy), span(0, 1, false, false));
         assert_eq!(graph.lifetime(dead), None);
         assert_eq!(graph.lifetime(previous), span(1, 1, true, false));

@@ -73,14 +73,8 @@ mod tests {
     fn transients_are_written_before_they_are_read() {
         let mut graph = GraphBuilder::new();
         let buffer = graph.transient("buffer", BUFFER);
-        graph
-            .pass("reader", PassKind::Compute)
-            .read(buffer, StorageReadCompute)
-            .side_effect();
-        graph
-            .pass("writer", PassKind::Compute)
-            .write(buffer, StorageWriteCompute)
-            .side_effect();
+        graph.pass("reader", PassKind::Compute).read(buffer, StorageReadCompute).side_effect();
+        graph.pass("writer", PassKind::Compute).write(buffer, StorageWriteCompute).side_effect();
         let (pass, resource) = ("reader".into(), "buffer".into());
         let expected = GraphError::NeverWritten { pass, resource };
         assert_eq!(graph.compile().unwrap_err(), expected);
@@ -91,9 +85,7 @@ mod tests {
         let mut graph = GraphBuilder::new();
         let buffer = graph.history("buffer", BUFFER, ResourceState::UNDEFINED);
         graph.output(buffer);
-        graph
-            .pass("accumulate", PassKind::Compute)
-            .read_write(buffer, StorageWriteCompute);
+        graph.pass("accumulate", PassKind::Compute).read_write(buffer, StorageWriteCompute);
         let found = graph.compile().unwrap_err();
         assert!(matches!(found, GraphError::NeverWritten { .. }), "{found}");
     }
@@ -102,14 +94,8 @@ mod tests {
     fn a_reader_of_what_was_not_required_is_told_so() {
         let mut graph = GraphBuilder::new();
         let buffer = graph.transient("sun-light", BUFFER);
-        graph
-            .pass("sun", PassKind::Compute)
-            .write(buffer, StorageWriteCompute)
-            .when(false, "no sun");
-        graph
-            .pass("composite", PassKind::Compute)
-            .read(buffer, StorageReadCompute)
-            .side_effect();
+        graph.pass("sun", PassKind::Compute).write(buffer, StorageWriteCompute).when(false, "no sun");
+        graph.pass("composite", PassKind::Compute).read(buffer, StorageReadCompute).side_effect();
         let expected = GraphError::WriterNotRequired {
             pass: "composite".into(),
             resource: "sun-light".into(),
@@ -123,9 +109,7 @@ mod tests {
     fn culled_readers_are_not_checked() {
         let mut graph = GraphBuilder::new();
         let buffer = graph.transient("buffer", BUFFER);
-        graph
-            .pass("reader", PassKind::Compute)
-            .read(buffer, StorageReadCompute);
+        graph.pass("reader", PassKind::Compute).read(buffer, StorageReadCompute);
         assert!(graph.compile().is_ok());
     }
 }

@@ -102,10 +102,7 @@ impl Declared {
     /// The accesses of one pass, as they were declared.
     pub fn accesses_of(&self, pass: usize) -> &[DeclaredAccess] {
         let start = self.passes[pass].first_access as usize;
-        let end = self
-            .passes
-            .get(pass + 1)
-            .map_or(self.accesses.len(), |next| next.first_access as usize);
+        let end = self.passes.get(pass + 1).map_or(self.accesses.len(), |next| next.first_access as usize);
         &self.accesses[start..end]
     }
 }

@@ -61,21 +61,14 @@ impl CompiledGraph {
             passes: self.report_passes(),
             culled: self.report_culled(),
             bytes: self.report_bytes(),
-            resources: self
-                .resources()
-                .map(|id| self.report_resource(id))
-                .collect(),
+            resources: self.resources().map(|id| self.report_resource(id)).collect(),
         }
     }
 
     fn report_passes(&self) -> Vec<PassReport> {
         let describe = |step: crate::Step<'_>| {
             let pass = &self.declared.passes[step.pass.index()];
-            PassReport {
-                name: pass.name.clone(),
-                kind: pass.kind,
-                barriers: step.barriers.len(),
-            }
+            PassReport { name: pass.name.clone(), kind: pass.kind, barriers: step.barriers.len() }
         };
         self.steps().map(describe).collect()
     }
@@ -102,10 +95,7 @@ impl CompiledGraph {
     }
 
     fn report_bytes(&self) -> BytesReport {
-        let mut report = BytesReport {
-            transient_peak: self.transient_peak(),
-            ..BytesReport::default()
-        };
+        let mut report = BytesReport { transient_peak: self.transient_peak(), ..BytesReport::default() };
         for id in self.resources() {
             let index = id.index();
             let total = match self.declared.resources[index].residence {
@@ -161,18 +151,11 @@ mod tests {
         graph.output(out);
         let sized = [("a", 1), ("b", 20), ("c", 300), ("unread", 4000)];
         let [a, b, c, unread] = sized.map(|(name, bytes)| graph.transient(name, buffer(bytes)));
-        graph
-            .pass("a", PassKind::Compute)
-            .write(a, StorageWriteCompute);
+        graph.pass("a", PassKind::Compute).write(a, StorageWriteCompute);
         for (name, from, to) in [("b", a, b), ("c", b, c), ("out", c, out)] {
-            graph
-                .pass(name, PassKind::Compute)
-                .read(from, StorageReadCompute)
-                .write(to, StorageWriteCompute);
+            graph.pass(name, PassKind::Compute).read(from, StorageReadCompute).write(to, StorageWriteCompute);
         }
-        graph
-            .pass("idle", PassKind::Compute)
-            .write(unread, StorageWriteCompute);
+        graph.pass("idle", PassKind::Compute).write(unread, StorageWriteCompute);
         graph.compile().unwrap()
     }
 
@@ -189,14 +172,8 @@ mod tests {
     fn keys_are_stable() {
         let report = serde_json::to_value(chain().report()).unwrap();
         let compute = "compute";
-        assert_eq!(
-            report["passes"][1],
-            serde_json::json!({"name": "b", "kind": compute, "barriers": 1})
-        );
-        assert_eq!(
-            report["culled"],
-            serde_json::json!([{"pass": "idle", "reason": "unused result"}])
-        );
+        assert_eq!(report["passes"][1], serde_json::json!({"name": "b", "kind": compute, "barriers": 1}));
+        assert_eq!(report["culled"], serde_json::json!([{"pass": "idle", "reason": "unused result"}]));
         assert_eq!(
             report["resources"][1],
             serde_json::json!({"name": "a", "residence": "transient", "bytes": 1, "first": 0, "last": 1})

@@ -38,15 +38,7 @@ pub struct ImageDesc {
 impl ImageDesc {
     /// A plain two-dimensional image, `size` in pixels as (width, height).
     pub const fn flat(size: (u32, u32), format: Format) -> Self {
-        Self {
-            width: size.0,
-            height: size.1,
-            depth: 1,
-            layers: 1,
-            mip_levels: 1,
-            samples: 1,
-            format,
-        }
+        Self { width: size.0, height: size.1, depth: 1, layers: 1, mip_levels: 1, samples: 1, format }
     }
 
     /// Bytes of all pixels, without padding; none if the size is empty, has more mip levels than
@@ -58,9 +50,8 @@ impl ImageDesc {
         if extent.contains(&0) || levels == 0 || levels > u32::BITS - largest.leading_zeros() {
             return None;
         }
-        let per_texel = u64::from(self.format.bytes_per_pixel())
-            * u64::from(self.samples)
-            * u64::from(self.layers);
+        let per_texel =
+            u64::from(self.format.bytes_per_pixel()) * u64::from(self.samples) * u64::from(self.layers);
         let bytes = (0..levels).try_fold(0_u64, |sum, level| {
             let texels = extent.into_iter().try_fold(1_u64, |product, length| {
                 product.checked_mul(u64::from((length >> level).max(1)))
@@ -146,30 +137,11 @@ mod tests {
         for wrong in [
             ImageDesc { width: 0, ..image },
             ImageDesc { layers: 0, ..image },
-            ImageDesc {
-                samples: 0,
-                ..image
-            },
-            ImageDesc {
-                mip_levels: 0,
-                ..image
-            },
-            ImageDesc {
-                mip_levels: 5,
-                ..image
-            },
-            ImageDesc {
-                width: huge,
-                height: huge,
-                depth: huge,
-                ..image
-            },
-            ImageDesc {
-                width: huge,
-                height: huge,
-                layers: huge,
-                ..image
-            },
+            ImageDesc { samples: 0, ..image },
+            ImageDesc { mip_levels: 0, ..image },
+            ImageDesc { mip_levels: 5, ..image },
+            ImageDesc { width: huge, height: huge, depth: huge, ..image },
+            ImageDesc { width: huge, height: huge, layers: huge, ..image },
         ] {
             assert_eq!(wrong.bytes(), None, "{wrong:?}");
         }

@@ -14,33 +14,21 @@ pub struct ResourceState {
 
 impl ResourceState {
     /// Fresh memory: nothing to wait for and nothing to read.
-    pub const UNDEFINED: Self = Self {
-        accesses: AccessSet::EMPTY,
-        defined: false,
-    };
+    pub const UNDEFINED: Self = Self { accesses: AccessSet::EMPTY, defined: false };
 
     /// A buffer whose contents every access can see already, such as one filled by the host
     /// before the frame was submitted. Not for images, which are always in some layout.
-    pub const SETTLED: Self = Self {
-        accesses: AccessSet::EMPTY,
-        defined: true,
-    };
+    pub const SETTLED: Self = Self { accesses: AccessSet::EMPTY, defined: true };
 
     /// Written, or read since it was written, by `accesses`.
     pub fn after(accesses: impl Into<AccessSet>) -> Self {
-        Self {
-            accesses: accesses.into(),
-            defined: true,
-        }
+        Self { accesses: accesses.into(), defined: true }
     }
 
     /// Without contents, yet still in use by `accesses`, such as an image just acquired from a
     /// window.
     pub fn undefined_after(accesses: impl Into<AccessSet>) -> Self {
-        Self {
-            accesses: accesses.into(),
-            defined: false,
-        }
+        Self { accesses: accesses.into(), defined: false }
     }
 
     /// The accesses to wait for.
@@ -57,10 +45,9 @@ impl ResourceState {
     pub fn layout(self, desc: &ResourceDesc) -> Option<Layout> {
         let fits = self.accesses.iter().all(|access| access.fits(desc));
         let layout = match desc {
-            ResourceDesc::Image(_) if self.defined => self
-                .accesses
-                .layout()
-                .filter(|layout| *layout != Layout::Undefined),
+            ResourceDesc::Image(_) if self.defined => {
+                self.accesses.layout().filter(|layout| *layout != Layout::Undefined)
+            }
             ResourceDesc::Image(_) | ResourceDesc::Buffer { .. } => Some(Layout::Undefined),
         };
         layout.filter(|_| fits)
@@ -78,10 +65,7 @@ mod tests {
         let layout = |state: ResourceState| state.layout(&image);
         assert_eq!(layout(ResourceState::UNDEFINED), Some(Layout::Undefined));
         assert_eq!(layout(ResourceState::SETTLED), None);
-        assert_eq!(
-            layout(ResourceState::after(Access::Present)),
-            Some(Layout::Present)
-        );
+        assert_eq!(layout(ResourceState::after(Access::Present)), Some(Layout::Present));
         assert_eq!(layout(ResourceState::after(Access::VertexRead)), None);
     }
 

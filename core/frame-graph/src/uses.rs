@@ -83,11 +83,7 @@ fn check_access<'a>(
         return Err(wrong_mode(pass, resource, declaration));
     }
     if !pass.kind.has_stage(access.stage()) {
-        return Err(GraphError::WrongKind {
-            pass: pass.name.to_string(),
-            kind: pass.kind,
-            access,
-        });
+        return Err(GraphError::WrongKind { pass: pass.name.to_string(), kind: pass.kind, access });
     }
     if !access.fits(&resource.desc) {
         return Err(GraphError::WrongResource {
@@ -103,17 +99,9 @@ fn wrong_mode(pass: &Pass, resource: &Resource, declaration: &DeclaredAccess) ->
     let access = declaration.access;
     let (pass, resource) = (pass.name.to_string(), resource.name.to_string());
     if declaration.mode == Mode::Read {
-        GraphError::ReadByWritingAccess {
-            pass,
-            resource,
-            access,
-        }
+        GraphError::ReadByWritingAccess { pass, resource, access }
     } else {
-        GraphError::WriteByReadingAccess {
-            pass,
-            resource,
-            access,
-        }
+        GraphError::WriteByReadingAccess { pass, resource, access }
     }
 }
 
@@ -126,11 +114,7 @@ fn use_of(declaration: &DeclaredAccess, resource: &Resource) -> ResourceUse {
     {
         accesses |= read.into();
     }
-    let layout = if resource.desc.is_image() {
-        access.layout()
-    } else {
-        Layout::Undefined
-    };
+    let layout = if resource.desc.is_image() { access.layout() } else { Layout::Undefined };
     ResourceUse {
         resource: declaration.resource,
         accesses,
@@ -148,10 +132,7 @@ fn extend(
     resource: &Resource,
 ) -> Result<(), GraphError> {
     let accesses = earlier.accesses | added.accesses;
-    let layout = earlier
-        .layout
-        .join(added.layout)
-        .filter(|_| accesses.is_free_of_conflict());
+    let layout = earlier.layout.join(added.layout).filter(|_| accesses.is_free_of_conflict());
     let Some(layout) = layout else {
         return Err(GraphError::Conflict {
             pass: pass.name.to_string(),
@@ -187,9 +168,7 @@ mod tests {
         let mut pass = graph.pass("pass", kind);
         declare(pass.side_effect(), image, buffer);
         let id = pass.id();
-        graph
-            .compile()
-            .map(|compiled| compiled.uses_of(id).to_vec())
+        graph.compile().map(|compiled| compiled.uses_of(id).to_vec())
     }
 
     #[test]
@@ -201,9 +180,7 @@ mod tests {
         })
         .unwrap();
         assert_eq!(uses.len(), 2);
-        let both = [Access::VertexRead, Access::IndexRead]
-            .into_iter()
-            .collect();
+        let both = [Access::VertexRead, Access::IndexRead].into_iter().collect();
         assert_eq!(uses[0].accesses, both);
         assert!(uses[0].reads && !uses[0].writes && uses[1].discards());
     }
@@ -225,8 +202,7 @@ mod tests {
     #[test]
     fn feedback_is_a_conflict() {
         let found = compile_pass(PassKind::Graphics, |pass, image, _| {
-            pass.read(image, Access::SampledFragment)
-                .write(image, Access::ColorAttachment);
+            pass.read(image, Access::SampledFragment).write(image, Access::ColorAttachment);
         });
         assert!(matches!(found, Err(GraphError::Conflict { .. })));
     }
@@ -234,8 +210,7 @@ mod tests {
     #[test]
     fn a_buffer_is_not_copied_onto_itself_by_halves() {
         let found = compile_pass(PassKind::Transfer, |pass, _, buffer| {
-            pass.read(buffer, Access::TransferSrc)
-                .read_write(buffer, Access::TransferDst);
+            pass.read(buffer, Access::TransferSrc).read_write(buffer, Access::TransferDst);
         });
         assert!(matches!(found, Err(GraphError::Conflict { .. })));
         let within = compile_pass(PassKind::Transfer, |pass, _, buffer| {
@@ -253,10 +228,7 @@ mod tests {
         let found = compile_pass(PassKind::Graphics, |pass, image, _| {
             pass.read_write(image, Access::SampledFragment);
         });
-        assert!(matches!(
-            found,
-            Err(GraphError::WriteByReadingAccess { .. })
-        ));
+        assert!(matches!(found, Err(GraphError::WriteByReadingAccess { .. })));
     }
 
     #[test]

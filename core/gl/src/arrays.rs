@@ -145,19 +145,18 @@ impl ClientState {
 
 const COORDINATES: [u32; 4] = [GL_SHORT, GL_INT, GL_FLOAT, GL_DOUBLE];
 const NORMALS: [u32; 5] = [GL_BYTE, GL_SHORT, GL_INT, GL_FLOAT, GL_DOUBLE];
-const COLORS: [u32; 8] = [
-    GL_BYTE,
-    GL_UNSIGNED_BYTE,
-    GL_SHORT,
-    GL_UNSIGNED_SHORT,
-    GL_INT,
-    GL_UNSIGNED_INT,
-    GL_FLOAT,
-    GL_DOUBLE,
-];
+const COLORS: [u32; 8] =
+    [GL_BYTE, GL_UNSIGNED_BYTE, GL_SHORT, GL_UNSIGNED_SHORT, GL_INT, GL_UNSIGNED_INT, GL_FLOAT, GL_DOUBLE];
 
 impl Context {
-    fn set_array(&mut self, slot: usize, shape: (i32, u32, i32), sizes: &[i32], kinds: &[u32], pointer: Pointer) {
+    fn set_array(
+        &mut self,
+        slot: usize,
+        shape: (i32, u32, i32),
+        sizes: &[i32],
+        kinds: &[u32],
+        pointer: Pointer,
+    ) {
         let (size, kind, stride) = shape;
         if !sizes.contains(&size) || stride < 0 {
             return self.record_error(GL_INVALID_VALUE);

@@ -95,9 +95,8 @@ pub fn assemble_unfilled(
         GL_QUADS => (0..count / 4).for_each(|i| ring(&[4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3], true)),
         GL_TRIANGLE_STRIP => (2..count).for_each(|i| ring(&[i - 2, i - 1, i], false)),
         GL_TRIANGLE_FAN => (2..count).for_each(|i| ring(&[0, i - 1, i], false)),
-        GL_QUAD_STRIP => {
-            (0..count.saturating_sub(2) / 2).for_each(|i| ring(&[2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2], false))
-        }
+        GL_QUAD_STRIP => (0..count.saturating_sub(2) / 2)
+            .for_each(|i| ring(&[2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2], false)),
         _ => ring(&(0..count).collect::<Vec<_>>(), true),
     }
 }

@@ -71,7 +71,10 @@ impl Context {
 
     pub(crate) fn fixed_state(&self, kind: Kind) -> FixedState {
         let units = std::array::from_fn(|i| self.unit_words(i));
-        FixedState { words: StateWords { global: self.global_words(kind), units }, raster: self.raster_state(kind) }
+        FixedState {
+            words: StateWords { global: self.global_words(kind), units },
+            raster: self.raster_state(kind),
+        }
     }
 
     fn global_words(&self, kind: Kind) -> GlobalWords {
@@ -168,13 +171,14 @@ impl Context {
                 .has(Cap::ColorLogicOp)
                 .then_some((self.state.color.logic_op.wrapping_sub(GL_CLEAR) & 15) as u8),
             color_mask: self.color_mask_bits(),
-            depth: caps.has(Cap::DepthTest).then(|| Depth {
-                compare: compare(self.state.depth.func),
-                write: self.state.depth.mask,
-            }),
+            depth: caps
+                .has(Cap::DepthTest)
+                .then(|| Depth { compare: compare(self.state.depth.func), write: self.state.depth.mask }),
             stencil: self.stencil(),
             cull: match polygon.cull_face {
-                _ if !matches!(kind, Kind::Polygons(PolygonMode::Fill)) || !caps.has(Cap::CullFace) => Cull::None,
+                _ if !matches!(kind, Kind::Polygons(PolygonMode::Fill)) || !caps.has(Cap::CullFace) => {
+                    Cull::None
+                }
                 GL_FRONT => Cull::Front,
                 GL_BACK => Cull::Back,
                 _ => Cull::FrontAndBack,

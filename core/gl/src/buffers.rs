@@ -26,7 +26,13 @@ static VERSIONS: AtomicU64 = AtomicU64::new(1);
 
 impl Default for BufferObject {
     fn default() -> BufferObject {
-        BufferObject { data: Vec::new(), version: 0, usage: GL_STATIC_DRAW, access: GL_READ_WRITE, mapped: false }
+        BufferObject {
+            data: Vec::new(),
+            version: 0,
+            usage: GL_STATIC_DRAW,
+            access: GL_READ_WRITE,
+            mapped: false,
+        }
     }
 }
 
@@ -130,9 +136,8 @@ impl Context {
     pub fn get_buffer_sub_data(&mut self, target: u32, offset: isize, size: isize) -> Vec<u8> {
         let Some(buffer) = self.bound_buffer(target) else { return Vec::new() };
         let buffer = buffer.lock();
-        let range = usize::try_from(offset)
-            .ok()
-            .and_then(|o| Some(o..o.checked_add(usize::try_from(size).ok()?)?));
+        let range =
+            usize::try_from(offset).ok().and_then(|o| Some(o..o.checked_add(usize::try_from(size).ok()?)?));
         let bytes = range.and_then(|range| buffer.data.get(range)).map(<[u8]>::to_vec);
         let mapped = buffer.mapped;
         drop(buffer);

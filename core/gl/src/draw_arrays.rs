@@ -66,8 +66,7 @@ impl Context {
         let mut values = std::mem::take(&mut self.scratch.indices);
         values.clear();
         if self.read_indices(count, kind, indices, &mut values) && !values.is_empty() {
-            let (least, greatest) =
-                values.iter().fold((u32::MAX, 0), |(l, g), &i| (l.min(i), g.max(i)));
+            let (least, greatest) = values.iter().fold((u32::MAX, 0), |(l, g), &i| (l.min(i), g.max(i)));
             let span = (greatest - least) as usize + 1;
             let selection = Selection::Indexed { indices: &values, least: least as usize, count: span };
             self.draw_selection(mode, selection);
@@ -76,7 +75,15 @@ impl Context {
     }
 
     /// glDrawRangeElements.
-    pub fn draw_range_elements(&mut self, mode: u32, start: u32, end: u32, count: i32, kind: u32, indices: Pointer) {
+    pub fn draw_range_elements(
+        &mut self,
+        mode: u32,
+        start: u32,
+        end: u32,
+        count: i32,
+        kind: u32,
+        indices: Pointer,
+    ) {
         if end < start {
             return self.record_error(GL_INVALID_VALUE);
         }
@@ -304,7 +311,9 @@ fn is_normalized(slot: usize) -> bool {
 fn widen(kind: u32, bytes: &[u8], out: &mut Vec<u32>) {
     match kind {
         GL_UNSIGNED_BYTE => out.extend(bytes.iter().map(|&b| u32::from(b))),
-        GL_UNSIGNED_SHORT => out.extend(bytes.as_chunks::<2>().0.iter().map(|&b| u32::from(u16::from_le_bytes(b)))),
+        GL_UNSIGNED_SHORT => {
+            out.extend(bytes.as_chunks::<2>().0.iter().map(|&b| u32::from(u16::from_le_bytes(b))))
+        }
         _ => out.extend(bytes.as_chunks::<4>().0.iter().map(|&b| u32::from_le_bytes(b))),
     }
 }

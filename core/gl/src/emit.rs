@@ -330,13 +330,15 @@ impl Context {
             self.emitter.ids.texgen = push(&mut self.frame.texgens, TexGen { units });
         }
         if matrices {
-            let units =
-                std::array::from_fn(|i| Matrix { columns: self.matrices.texture[i].top().to_cols_array_2d() });
+            let units = std::array::from_fn(|i| Matrix {
+                columns: self.matrices.texture[i].top().to_cols_array_2d(),
+            });
             self.emitter.ids.texture_matrices =
                 push(&mut self.frame.texture_matrices, TextureMatrices { units });
         }
         if clip {
-            let plane = |i: usize| Plane { coefficients: self.state.transform.clip_planes[i].map(|v| v as f32) };
+            let plane =
+                |i: usize| Plane { coefficients: self.state.transform.clip_planes[i].map(|v| v as f32) };
             let planes = std::array::from_fn(plane);
             self.emitter.ids.clip_planes = push(&mut self.frame.clip_planes, ClipPlanes { planes });
         }

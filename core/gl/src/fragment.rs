@@ -62,7 +62,8 @@ impl Context {
     }
 
     pub(crate) fn exec_blend_func_separate(&mut self, sc: u32, dc: u32, sa: u32, da: u32) {
-        let legal = is_factor(sc, true) && is_factor(sa, true) && is_factor(dc, false) && is_factor(da, false);
+        let legal =
+            is_factor(sc, true) && is_factor(sa, true) && is_factor(dc, false) && is_factor(da, false);
         require!(self, legal, GL_INVALID_ENUM);
         let blend = [[sc, dc], [sa, da]];
         if self.state.color.blend != blend {
@@ -149,8 +150,7 @@ impl Context {
 
     pub(crate) fn exec_stencil_op(&mut self, fail: u32, depth_fail: u32, pass: u32) {
         let ops = [fail, depth_fail, pass];
-        let known =
-            [GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP];
+        let known = [GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP];
         require!(self, ops.iter().all(|op| known.contains(op)), GL_INVALID_ENUM);
         self.state.stencil.ops = ops;
         self.dirty(Dirty::FIXED);
@@ -254,7 +254,8 @@ impl Context {
                 color: color.then_some(state.color.clear),
                 color_mask,
                 depth: depth.then_some(state.depth.clear as f32),
-                stencil: stencil.then_some((state.stencil.clear as u32 & 255, state.stencil.write_mask & 255)),
+                stencil: stencil
+                    .then_some((state.stencil.clear as u32 & 255, state.stencil.write_mask & 255)),
                 scissor: state.caps.has(Cap::ScissorTest).then_some(state.scissor),
             }));
         }

@@ -116,9 +116,15 @@ impl Elements<'_> {
         fn at<const N: usize>(element: &[u8], c: usize) -> [u8; N] {
             element.get(c * N..).and_then(<[u8]>::first_chunk).copied().unwrap_or([0; N])
         }
-        let unsigned = |v: u32, max: u32| if self.shape.normalized { (f64::from(v) / f64::from(max)) as f32 } else { v as f32 };
+        let unsigned = |v: u32, max: u32| {
+            if self.shape.normalized { (f64::from(v) / f64::from(max)) as f32 } else { v as f32 }
+        };
         let signed = |v: i32, max: u32| {
-            if self.shape.normalized { ((2.0 * f64::from(v) + 1.0) / f64::from(max)) as f32 } else { v as f32 }
+            if self.shape.normalized {
+                ((2.0 * f64::from(v) + 1.0) / f64::from(max)) as f32
+            } else {
+                v as f32
+            }
         };
         match self.shape.kind {
             GL_BYTE => signed(i8::from_le_bytes(at(element, c)).into(), 255),

@@ -172,12 +172,16 @@ impl Context {
             GL_TEXTURE_MATRIX => floats(&matrices.texture[active].top().to_cols_array()),
             GL_TRANSPOSE_MODELVIEW_MATRIX => floats(&matrices.modelview.top().transpose().to_cols_array()),
             GL_TRANSPOSE_PROJECTION_MATRIX => floats(&matrices.projection.top().transpose().to_cols_array()),
-            GL_TRANSPOSE_TEXTURE_MATRIX => floats(&matrices.texture[active].top().transpose().to_cols_array()),
+            GL_TRANSPOSE_TEXTURE_MATRIX => {
+                floats(&matrices.texture[active].top().transpose().to_cols_array())
+            }
             GL_MODELVIEW_STACK_DEPTH => stack(&matrices.modelview),
             GL_PROJECTION_STACK_DEPTH => stack(&matrices.projection),
             GL_TEXTURE_STACK_DEPTH => stack(&matrices.texture[active]),
             GL_MATRIX_MODE => name(self.state.transform.matrix_mode),
-            GL_VIEWPORT => ints([viewport.rect.x, viewport.rect.y, viewport.rect.width, viewport.rect.height]),
+            GL_VIEWPORT => {
+                ints([viewport.rect.x, viewport.rect.y, viewport.rect.width, viewport.rect.height])
+            }
             GL_DEPTH_RANGE => Some(Value::Fractions(viewport.depth_range.to_vec())),
             GL_ATTRIB_STACK_DEPTH => ints([self.stacks.depths().0 as i32]),
             GL_CLIENT_ATTRIB_STACK_DEPTH => ints([self.stacks.depths().1 as i32]),
@@ -192,7 +196,9 @@ impl Context {
             GL_CURRENT_COLOR => fractions(&current.attributes[Slot::Color as usize]),
             GL_CURRENT_SECONDARY_COLOR => fractions(&current.attributes[Slot::Secondary as usize]),
             GL_CURRENT_NORMAL => fractions(&current.attributes[Slot::Normal as usize][..3]),
-            GL_CURRENT_TEXTURE_COORDS => floats(&current.attributes[(Slot::Texture0 as usize + active).min(SLOTS - 1)]),
+            GL_CURRENT_TEXTURE_COORDS => {
+                floats(&current.attributes[(Slot::Texture0 as usize + active).min(SLOTS - 1)])
+            }
             GL_CURRENT_FOG_COORDINATE => floats(&current.attributes[Slot::Fog as usize][..1]),
             GL_CURRENT_INDEX => floats(&[current.index]),
             GL_EDGE_FLAG => flag(current.edge_flag),

@@ -78,7 +78,9 @@ impl Context {
             8.. => name(GL_TEXTURE0 + word - 8),
             4 => name(GL_ZERO),
             5 => name(GL_ONE),
-            _ => name(COMBINE_SOURCES.iter().find(|(_, s)| *s as u32 == word).map_or(GL_PREVIOUS, |(gl, _)| *gl)),
+            _ => name(
+                COMBINE_SOURCES.iter().find(|(_, s)| *s as u32 == word).map_or(GL_PREVIOUS, |(gl, _)| *gl),
+            ),
         };
         let function = |word: u32| {
             let found = COMBINE_FUNCTIONS.iter().find(|(_, f)| *f as u32 == word);
@@ -108,7 +110,9 @@ impl Context {
             (GL_TEXTURE_ENV, GL_OPERAND1_ALPHA) => Some(operand(words.operand_alpha1() + 2)),
             (GL_TEXTURE_ENV, GL_OPERAND2_ALPHA) => Some(operand(words.operand_alpha2() + 2)),
             (GL_TEXTURE_FILTER_CONTROL, GL_TEXTURE_LOD_BIAS) => Some(floats(&[unit.lod_bias])),
-            (GL_POINT_SPRITE_ARB, GL_COORD_REPLACE_ARB) => Some(Value::Bools(vec![words.coord_replace() != 0])),
+            (GL_POINT_SPRITE_ARB, GL_COORD_REPLACE_ARB) => {
+                Some(Value::Bools(vec![words.coord_replace() != 0]))
+            }
             _ => None,
         };
         self.found(value)

@@ -73,9 +73,10 @@ impl Context {
     fn stack(&mut self) -> &mut Stack {
         let (stack, dirty) = match self.state.transform.matrix_mode {
             GL_PROJECTION => (&mut self.matrices.projection, Dirty::TRANSFORM),
-            GL_TEXTURE => {
-                (&mut self.matrices.texture[self.state.texture.active], Dirty::TEXTURE_MATRICES | Dirty::FIXED)
-            }
+            GL_TEXTURE => (
+                &mut self.matrices.texture[self.state.texture.active],
+                Dirty::TEXTURE_MATRICES | Dirty::FIXED,
+            ),
             GL_COLOR => (&mut self.matrices.color, Dirty::empty()),
             _ => (&mut self.matrices.modelview, Dirty::TRANSFORM),
         };
@@ -143,10 +144,22 @@ impl Context {
             return self.record_error(GL_INVALID_VALUE);
         }
         let m = [
-            2.0 / (r - l), 0.0, 0.0, 0.0,
-            0.0, 2.0 / (t - b), 0.0, 0.0,
-            0.0, 0.0, -2.0 / (f - n), 0.0,
-            -(r + l) / (r - l), -(t + b) / (t - b), -(f + n) / (f - n), 1.0,
+            2.0 / (r - l),
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            2.0 / (t - b),
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            -2.0 / (f - n),
+            0.0,
+            -(r + l) / (r - l),
+            -(t + b) / (t - b),
+            -(f + n) / (f - n),
+            1.0,
         ];
         self.multiply(Mat4::from_cols_array(&m.map(|v| v as f32)));
     }
@@ -156,10 +169,22 @@ impl Context {
             return self.record_error(GL_INVALID_VALUE);
         }
         let m = [
-            2.0 * n / (r - l), 0.0, 0.0, 0.0,
-            0.0, 2.0 * n / (t - b), 0.0, 0.0,
-            (r + l) / (r - l), (t + b) / (t - b), -(f + n) / (f - n), -1.0,
-            0.0, 0.0, -2.0 * f * n / (f - n), 0.0,
+            2.0 * n / (r - l),
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            2.0 * n / (t - b),
+            0.0,
+            0.0,
+            (r + l) / (r - l),
+            (t + b) / (t - b),
+            -(f + n) / (f - n),
+            -1.0,
+            0.0,
+            0.0,
+            -2.0 * f * n / (f - n),
+            0.0,
         ];
         self.multiply(Mat4::from_cols_array(&m.map(|v| v as f32)));
     }
@@ -180,10 +205,22 @@ fn rotation(axis: DVec3, sin: f64, cos: f64) -> Mat4 {
     let DVec3 { x, y, z } = axis;
     let k = 1.0 - cos;
     let m = [
-        x * x * k + cos, y * x * k + z * sin, x * z * k - y * sin, 0.0,
-        x * y * k - z * sin, y * y * k + cos, y * z * k + x * sin, 0.0,
-        x * z * k + y * sin, y * z * k - x * sin, z * z * k + cos, 0.0,
-        0.0, 0.0, 0.0, 1.0,
+        x * x * k + cos,
+        y * x * k + z * sin,
+        x * z * k - y * sin,
+        0.0,
+        x * y * k - z * sin,
+        y * y * k + cos,
+        y * z * k + x * sin,
+        0.0,
+        x * z * k + y * sin,
+        y * z * k - x * sin,
+        z * z * k + cos,
+        0.0,
+        0.0,
+        0.0,
+        0.0,
+        1.0,
     ];
     Mat4::from_cols_array(&m.map(|v| v as f32))
 }

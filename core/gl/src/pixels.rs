@@ -133,7 +133,9 @@ impl Context {
         if !self.state.current.raster.valid {
             return;
         }
-        if let Some(data) = call.data.as_ref().filter(|_| !extent.is_empty() && self.mode == RenderMode::Render) {
+        if let Some(data) =
+            call.data.as_ref().filter(|_| !extent.is_empty() && self.mode == RenderMode::Render)
+        {
             let mask = PixelLayout::from_gl(GL_COLOR_INDEX, GL_BITMAP)
                 .and_then(|layout| PixelSource::new(data, layout, &call.packing, extent))
                 .and_then(|source| unpack_mask(&source));
@@ -217,7 +219,16 @@ impl Context {
 
     /// glReadPixels into the program's memory.
     #[expect(clippy::too_many_arguments, reason = "the command has them")]
-    pub fn read_pixels(&mut self, x: i32, y: i32, width: i32, height: i32, format: u32, kind: u32, data: &mut [u8]) {
+    pub fn read_pixels(
+        &mut self,
+        x: i32,
+        y: i32,
+        width: i32,
+        height: i32,
+        format: u32,
+        kind: u32,
+        data: &mut [u8],
+    ) {
         if self.in_begin() {
             return self.record_error(GL_INVALID_OPERATION);
         }
@@ -249,7 +260,9 @@ impl Context {
 
     pub(crate) fn exec_read_buffer(&mut self, buffer: u32) {
         match buffer {
-            GL_FRONT_LEFT | GL_BACK_LEFT | GL_FRONT | GL_BACK | GL_LEFT => self.state.pixel.read_buffer = buffer,
+            GL_FRONT_LEFT | GL_BACK_LEFT | GL_FRONT | GL_BACK | GL_LEFT => {
+                self.state.pixel.read_buffer = buffer
+            }
             GL_FRONT_RIGHT | GL_BACK_RIGHT | GL_RIGHT | GL_AUX0..=GL_AUX3 => {
                 self.record_error(GL_INVALID_OPERATION);
             }
@@ -322,7 +335,8 @@ impl Context {
                 continue;
             }
             let position = Vec4::from_array(light.position);
-            let to_light = if position.w == 0.0 { position.truncate() } else { position.truncate() / position.w - eye };
+            let to_light =
+                if position.w == 0.0 { position.truncate() } else { position.truncate() / position.w - eye };
             let [c, l, q] = light.attenuation;
             let d = to_light.length();
             let falloff = if position.w == 0.0 { 1.0 } else { 1.0 / (c + l * d + q * d * d) };

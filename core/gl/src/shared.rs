@@ -38,7 +38,8 @@ impl Names {
             return 0;
         }
         let mut first = self.last_list.wrapping_add(1).max(1);
-        while let Some(used) = (first..first.saturating_add(range)).rev().find(|n| self.lists.contains_key(n)) {
+        while let Some(used) = (first..first.saturating_add(range)).rev().find(|n| self.lists.contains_key(n))
+        {
             first = used + 1;
         }
         let Some(last) = first.checked_add(range - 1) else { return 0 };

@@ -287,7 +287,8 @@ pub const COMBINE_SOURCES: [(u32, CombineSource); 4] = [
 ];
 
 /// Combiner operands in the order of their words.
-pub const COMBINE_OPERANDS: [u32; 4] = [GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA];
+pub const COMBINE_OPERANDS: [u32; 4] =
+    [GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA];
 
 fn env_mode(mode: u32) -> Option<EnvMode> {
     ENV_MODES.iter().find(|(gl, _)| *gl == mode).map(|(_, mode)| *mode)

@@ -112,7 +112,10 @@ fn lists_inherit_the_current_colour_and_leave_theirs() {
     assert_eq!(attribute(&frame, draws[0], 0, Slot::Color), [1.0, 0.0, 0.0, 1.0]);
     assert_eq!(attribute(&frame, draws[1], 0, Slot::Color), [0.0, 1.0, 0.0, 1.0]);
     assert!(draws.iter().all(|draw| matches!(draw.source, VertexSource::Retained { .. })));
-    assert_eq!(frame.retained.iter().map(|range| range.id()).collect::<std::collections::HashSet<_>>().len(), 1);
+    assert_eq!(
+        frame.retained.iter().map(|range| range.id()).collect::<std::collections::HashSet<_>>().len(),
+        1
+    );
 }
 
 #[test]
@@ -244,8 +247,7 @@ fn mapped_buffers_change_when_they_are_unmapped() {
 #[test]
 fn a_texture_changed_between_two_draws_is_uploaded_between_them() {
     let frame = frame(|gl| {
-        let definition =
-            ImageDefinition { level: 0, internal_format: GL_RGBA, size: [1, 1, 1], border: 0 };
+        let definition = ImageDefinition { level: 0, internal_format: GL_RGBA, size: [1, 1, 1], border: 0 };
         gl.bind_texture(GL_TEXTURE_2D, 7);
         gl.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, Params::Ints(&[GL_NEAREST as i32]));
         gl.tex_image((GL_TEXTURE_2D, 2), definition, (GL_RGBA, GL_UNSIGNED_BYTE), Some(&[1, 2, 3, 4]));
@@ -349,8 +351,8 @@ fn a_read_back_hands_over_what_was_drawn_before() {
     triangle(&mut gl);
     gl.swap_buffers();
     let frames = recorder.0.lock().unwrap();
-    assert_eq!(frames.iter().map(|(frame, end)| (draws(frame).len(), *end)).collect::<Vec<_>>(), [
-        (1, End::Continued),
-        (1, End::Swap)
-    ]);
+    assert_eq!(
+        frames.iter().map(|(frame, end)| (draws(frame).len(), *end)).collect::<Vec<_>>(),
+        [(1, End::Continued), (1, End::Swap)]
+    );
 }

@@ -43,7 +43,8 @@ impl Checker {
         }
         for operation in &frame.operations {
             if let Operation::Pixels(pixels) = operation
-                && (pixels.current as usize >= frame.current.len() || pixels.fixed as usize >= frame.fixed.len())
+                && (pixels.current as usize >= frame.current.len()
+                    || pixels.fixed as usize >= frame.fixed.len())
             {
                 self.0.lock().unwrap().push("pixels name what is not there".into());
             }
@@ -72,18 +73,53 @@ struct Call {
 
 /// Enumerants that many commands take, and some that none does.
 const NAMES: [u32; 36] = [
-    GL_TEXTURE_2D, GL_LIGHTING, GL_BLEND, GL_DEPTH_TEST, GL_LIGHT0, GL_COLOR_MATERIAL, GL_FRONT, GL_BACK,
-    GL_FRONT_AND_BACK, GL_AMBIENT, GL_DIFFUSE, GL_POSITION, GL_SHININESS, GL_MODELVIEW, GL_PROJECTION, GL_TEXTURE,
-    GL_LINEAR, GL_NEAREST, GL_REPEAT, GL_TRIANGLES, GL_QUADS, GL_POLYGON, GL_LINE_LOOP, GL_POINTS, GL_TRIANGLE_STRIP,
-    GL_RGBA, GL_UNSIGNED_BYTE, GL_VERTEX_ARRAY, GL_COLOR_ARRAY, GL_COMPILE, GL_COMPILE_AND_EXECUTE, GL_LINE, GL_FILL,
-    GL_FLOAT, GL_ARRAY_BUFFER, 0xffff,
+    GL_TEXTURE_2D,
+    GL_LIGHTING,
+    GL_BLEND,
+    GL_DEPTH_TEST,
+    GL_LIGHT0,
+    GL_COLOR_MATERIAL,
+    GL_FRONT,
+    GL_BACK,
+    GL_FRONT_AND_BACK,
+    GL_AMBIENT,
+    GL_DIFFUSE,
+    GL_POSITION,
+    GL_SHININESS,
+    GL_MODELVIEW,
+    GL_PROJECTION,
+    GL_TEXTURE,
+    GL_LINEAR,
+    GL_NEAREST,
+    GL_REPEAT,
+    GL_TRIANGLES,
+    GL_QUADS,
+    GL_POLYGON,
+    GL_LINE_LOOP,
+    GL_POINTS,
+    GL_TRIANGLE_STRIP,
+    GL_RGBA,
+    GL_UNSIGNED_BYTE,
+    GL_VERTEX_ARRAY,
+    GL_COLOR_ARRAY,
+    GL_COMPILE,
+    GL_COMPILE_AND_EXECUTE,
+    GL_LINE,
+    GL_FILL,
+    GL_FLOAT,
+    GL_ARRAY_BUFFER,
+    0xffff,
 ];
 
 fn call() -> impl Strategy<Value = Call> {
     let float = prop_oneof![Just(f32::NAN), Just(f32::INFINITY), Just(0.0), -2.0f32..2.0];
     let int = prop_oneof![Just(i32::MIN), Just(i32::MAX), -2..70];
-    (0u8..44, prop::sample::select(NAMES.to_vec()), float, int)
-        .prop_map(|(which, name, float, int)| Call { which, name, float, int })
+    (0u8..44, prop::sample::select(NAMES.to_vec()), float, int).prop_map(|(which, name, float, int)| Call {
+        which,
+        name,
+        float,
+        int,
+    })
 }
 
 fn play(gl: &mut Context, call: &Call) {

@@ -69,6 +69,7 @@ features! {
     occlusion_query_precise = core.occlusion_query_precise;
     fragment_stores_and_atomics = core.fragment_stores_and_atomics;
     vertex_stores_and_atomics = core.vertex_pipeline_stores_and_atomics;
+    storage_image_extended_formats = core.shader_storage_image_extended_formats;
     storage_image_read_without_format = core.shader_storage_image_read_without_format;
     storage_image_write_without_format = core.shader_storage_image_write_without_format;
     shader_float64 = core.shader_float64;

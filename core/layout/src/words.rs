@@ -28,11 +28,7 @@ impl WordsDescription {
     /// GLSL: for each field the index of its word as `PREFIX_FIELD_WORD` and an accessor macro
     /// `prefix_field(word)`, which stays a constant expression for specialisation constants.
     pub fn glsl(&self) -> String {
-        let mut text = format!(
-            "#define {}_WORDS {}\n",
-            self.prefix.to_uppercase(),
-            self.count
-        );
+        let mut text = format!("#define {}_WORDS {}\n", self.prefix.to_uppercase(), self.count);
         for field in &self.fields {
             let mask = if field.bits == 32 { u32::MAX } else { (1 << field.bits) - 1 };
             text += &format!(

@@ -27,15 +27,10 @@ shared_struct! {
         pub vertex_layout: u32,
         /// The greatest index that is a vertex; greater ones are taken for it.
         pub last_vertex: u32,
-        pub triangles: u32,
         pub transform: u32,
         pub material: u32,
         pub environment: u32,
-        pub texgen: u32,
-        pub texture_matrices: u32,
         pub current: u32,
-        /// Coordinates that GL_CLAMP wraps: 3 bits a unit.
-        pub clamps: u32,
         /// How light is found for it: a `SURFACE_` constant.
         pub kind: u32,
         /// The next draw of the same triangles, blended over this one; its own number at the end of the list.
@@ -120,10 +115,14 @@ shared_struct! {
         /// Pixels.
         pub width: u32,
         pub height: u32,
-        /// Bindless index of the visibility texture.
+        /// Bindless index of the visibility buffer as a storage image.
         pub visibility: u32,
         /// Bindless index of the colour as a storage image.
         pub color: u32,
+        /// Bindless index of the albedo as a storage image.
+        pub albedo: u32,
+        /// Unused.
+        pub padding: u32,
         pub light_count: u32,
         /// Samples a pixel of this frame.
         pub samples: u32,
@@ -247,6 +246,9 @@ pub enum Paint {
 
 /// Bits of a hit's primitive below the member's number.
 pub const MEMBER_SHIFT: u32 = 20;
+
+/// Beside a surface's number in the push constants of its draw: its vertices' colours are light and not paint.
+pub const WHITE_ALBEDO: u32 = 1 << 31;
 
 /// Instances that never move.
 pub const MASK_STATIC: u32 = 1;

@@ -93,19 +93,14 @@ impl ResolvedBindings {
 }
 
 fn resolve(lookup: &mut Lookup<'_>, index: u32) -> Result<Resolved, GpuError> {
-    let mut resolved = Resolved {
-        textures: [0; TEXTURE_UNITS],
-        base_formats: [BaseFormat::Rgba; TEXTURE_UNITS],
-        clamps: 0,
-    };
+    let mut resolved =
+        Resolved { textures: [0; TEXTURE_UNITS], base_formats: [BaseFormat::Rgba; TEXTURE_UNITS], clamps: 0 };
     let bindings = lookup.frame.bindings.get(index as usize);
     for (unit, binding) in bindings.into_iter().flatten().enumerate() {
         let Some(binding) = binding else { continue };
         let texture = lookup.textures.get(binding.image);
         let base_format = texture.map_or(BaseFormat::Rgba, |texture| texture.shape.base_format);
-        let sampler = lookup
-            .samplers
-            .index(lookup.table, &binding.sampler, base_format, 0.0)?;
+        let sampler = lookup.samplers.index(lookup.table, &binding.sampler, base_format, 0.0)?;
         resolved.textures[unit] = packed(texture.map_or(0, |texture| texture.index), sampler);
         resolved.base_formats[unit] = base_format;
         resolved.clamps |= shader_clamps(&binding.sampler) << (3 * unit);
@@ -127,9 +122,7 @@ fn biased(
         return Ok(word);
     };
     let format = resolved.base_formats[unit];
-    let sampler = lookup
-        .samplers
-        .index(lookup.table, &binding.sampler, format, bias)?;
+    let sampler = lookup.samplers.index(lookup.table, &binding.sampler, format, bias)?;
     Ok(packed(word & ((1 << IMAGE_BITS) - 1), sampler))
 }
 

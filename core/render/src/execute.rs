@@ -7,15 +7,16 @@ use crate::error::RenderError;
 use crate::graph::{Bound, record_barriers};
 use crate::passes::accumulate::Accumulated;
 use crate::passes::copy::{self, FlipRecords};
-use crate::passes::raster::{self, RasterFrame, RasterPass};
+use crate::passes::raster::{self, RasterFrame, RasterPass, RasterView};
 use crate::passes::readback::{Question, Readback};
 use crate::passes::{pixels, transfers};
+use crate::pathtrace::{self, PreparedTrace, TraceContext, TraceInput, Tracing};
 use crate::plan::{Plan, Planner, Step};
 use crate::rectangles::PixelStore;
 use crate::renderer::Renderer;
 use crate::report::FrameReport;
 use crate::retained::RangeCopy;
-use crate::schedule::{Lasting, Schedule, Sizes, Work, schedule};
+use crate::schedule::{Lasting, Schedule, Sizes, TracedViews, Work, schedule};
 use crate::tables;
 
 /// What is ready to be recorded.
@@ -28,6 +29,7 @@ struct Prepared {
     /// Of each batch of copies to textures.
     flips: Vec<FlipRecords>,
     readback: Option<Readback>,
+    traced: Option<PreparedTrace>,
 }
 
 impl Renderer {
@@ -41,22 +43,27 @@ impl Renderer {
         Ok(())
     }
 
-    /// Executes a frame, and reads what `question` asks for.
+    /// Executes a frame, and reads what `question` asks for. `tracing` is how the frame was understood, if its world
+    /// is to be traced.
     pub(crate) fn execute_and_read(
         &mut self,
         frame: &Frame,
         question: Option<Question>,
+        tracing: Option<&Tracing>,
     ) -> Result<Option<Readback>, RenderError> {
         self.collect(self.current)?;
         self.resize(frame)?;
         self.slots[self.current].arena.reset();
         self.ranges.begin_frame();
         self.raster.begin_frame(frame);
-        let prepared = self.prepare(frame, question)?;
+        let prepared = self.prepare(frame, question, tracing)?;
         let recorded = self.record(frame, &prepared);
         if recorded.is_err() {
             let pool = &mut self.slots[self.current].pool;
             self.raster.queries.abandon(pool);
+            if let Some(tracer) = &mut self.tracer {
+                tracer.forget();
+            }
         }
         recorded?;
         self.note(frame, &prepared);
@@ -72,6 +79,7 @@ impl Renderer {
         &mut self,
         frame: &Frame,
         question: Option<Question>,
+        tracing: Option<&Tracing>,
     ) -> Result<Prepared, RenderError> {
         let size = self.target.size;
         let arena = &mut self.slots[self.current].arena;
@@ -80,6 +88,7 @@ impl Renderer {
             table: &self.table,
             arena,
             size,
+            views: tracing.map_or(&[], |tracing| &tracing.arrangement.views),
         };
         let plan = planner.plan(frame)?;
         self.reserve(frame, &plan)?;
@@ -94,31 +103,57 @@ impl Renderer {
             tables::upload(frame, records, size, arena, &mut self.ranges, &mut self.scratch)?;
         let flip = |batch| copy::prepare(batch, &self.store, arena);
         let flips = plan.batches.iter().map(flip).collect::<Result<_, _>>()?;
+        let traced = match tracing {
+            Some(tracing) => self.prepare_trace(frame, address, tracing)?,
+            None => None,
+        };
+        let views = match (&self.tracer, &traced) {
+            (Some(tracer), Some(prepared)) => tracer.buffers.as_ref().map(|buffers| TracedViews {
+                buffers,
+                world: tracer.world_state,
+                prepared,
+            }),
+            _ => None,
+        };
         let lasting = Lasting {
             textures: self.texture_state,
             geometry: self.geometry_state,
             store: self.store.state,
             accumulation: self.accumulator.state,
         };
-        let sizes = Sizes {
-            store: self.store.bytes(),
-            accumulation: self.accumulator.bytes(),
-        };
+        let sizes = Sizes { store: self.store.bytes(), accumulation: self.accumulator.bytes() };
         let has_first = !plan.defined.is_empty()
             || !range_copies.is_empty()
             || matches!(plan.steps.first(), Some(Step::Transfers(range)) if !range.is_empty());
         let question = question.as_ref();
         let schedule =
-            schedule(&plan, frame, &self.target, &lasting, &sizes, has_first, question)?;
+            schedule(&plan, frame, &self.target, &lasting, &sizes, has_first, question, views.as_ref())?;
         let readback = question.map(|question| Readback::new(&self.gpu, *question));
-        Ok(Prepared {
-            plan,
-            schedule,
+        Ok(Prepared { plan, schedule, address, range_copies, flips, readback: readback.transpose()?, traced })
+    }
+
+    /// Makes what the passes of a frame's views read.
+    fn prepare_trace(
+        &mut self,
+        frame: &Frame,
+        address: u64,
+        tracing: &Tracing,
+    ) -> Result<Option<PreparedTrace>, GpuError> {
+        let (Some(tracer), Some(camera)) = (&mut self.tracer, &tracing.scene.camera) else {
+            return Ok(None);
+        };
+        let views = tracing.arrangement.views.len();
+        tracer.reserve(&self.gpu, &self.table, &self.target, views)?;
+        let input = TraceInput {
+            frame,
             address,
-            range_copies,
-            flips,
-            readback: readback.transpose()?,
-        })
+            scratch: &self.scratch,
+            raster: &mut self.raster,
+            textures: &self.textures,
+            table: &self.table,
+            arena: &mut self.slots[self.current].arena,
+        };
+        pathtrace::prepare(tracer, input, tracing, camera, self.target.size).map(Some)
     }
 
     /// Makes room for what passes leave to the next ones.
@@ -148,7 +183,9 @@ impl Renderer {
         }
         let graph = &prepared.schedule.graph;
         for step in graph.steps() {
-            record_barriers(&recording, step.barriers, &self.bound(prepared));
+            if !step.barriers.is_empty() {
+                record_barriers(&recording, step.barriers, &self.bound(prepared));
+            }
             let name = graph.pass_name(step.pass).unwrap_or_default();
             let slot = &mut self.slots[self.current];
             slot.report.add_pass(name);
@@ -162,15 +199,23 @@ impl Renderer {
         }
         self.slots[self.current].submission = Some(recording.submit()?);
         self.keep_states(&prepared.schedule);
+        let views = prepared.schedule.views.as_ref();
+        if let (Some(tracer), Some(views), Some(traced)) = (&mut self.tracer, views, &prepared.traced) {
+            tracer.keep_states(&prepared.schedule.graph, views, traced);
+        }
         Ok(())
     }
 
     /// What the graph's resources are, in the order of declaration.
-    fn bound(&self, prepared: &Prepared) -> [Bound<'_>; 6] {
+    fn bound(&self, prepared: &Prepared) -> Vec<Bound<'_>> {
         let resources = &prepared.schedule.resources;
-        let mut bound = [Bound::Memory; 6];
+        let mut bound = vec![Bound::Memory; prepared.schedule.graph.resources().len()];
         bound[resources.color.index()] = Bound::Image(&self.target.color);
         bound[resources.depth.index()] = Bound::Image(&self.target.depth);
+        let buffers = self.tracer.as_ref().and_then(|tracer| tracer.buffers.as_ref());
+        if let (Some(views), Some(buffers)) = (&prepared.schedule.views, buffers) {
+            bound[views.visibility.index()] = Bound::Image(&buffers.visibility.image);
+        }
         bound
     }
 
@@ -204,7 +249,16 @@ impl Renderer {
             Work::Transfers(range) => {
                 transfers::record(commands, &plan.transfers[range.clone()], textures);
             }
-            Work::Raster(step) => {
+            Work::Raster(step, begins_view) => {
+                let buffers = self.tracer.as_ref().and_then(|tracer| tracer.buffers.as_ref());
+                let view = match (step.view, buffers, &prepared.traced) {
+                    (Some(_), Some(buffers), Some(traced)) => Some(RasterView {
+                        visibility: buffers.visibility.image.view(),
+                        begins: *begins_view,
+                        marks: &traced.marks,
+                    }),
+                    _ => None,
+                };
                 let mut pass = RasterPass {
                     commands,
                     input: RasterFrame {
@@ -216,6 +270,7 @@ impl Renderer {
                         address: prepared.address,
                         draws: &self.scratch.commands,
                         rectangles: &self.rectangles,
+                        view,
                     },
                     state: &mut self.raster,
                     pool: &mut self.slots[self.current].pool,
@@ -228,8 +283,7 @@ impl Renderer {
             }
             Work::CopyFlip(batch) => {
                 let records = prepared.flips[*batch];
-                self.flip
-                    .record(commands, target, &plan.batches[*batch], records);
+                self.flip.record(commands, target, &plan.batches[*batch], records);
             }
             Work::CopyWrite(batch) => {
                 copy::record_write(commands, &plan.batches[*batch], store, textures);
@@ -240,6 +294,20 @@ impl Renderer {
             Work::AccumulateRead(item) => item.record_read(commands, target, store),
             Work::Accumulate(item) => self.accumulator.record(commands, item, store),
             Work::AccumulateWrite(item) => item.record_write(commands, target, store),
+            Work::Trace(work) => {
+                let tracer = self.tracer.as_ref();
+                let buffers = tracer.and_then(|tracer| tracer.buffers.as_ref());
+                if let (Some(tracer), Some(buffers), Some(traced)) = (tracer, buffers, &prepared.traced) {
+                    let context = TraceContext {
+                        commands,
+                        table: &self.table,
+                        pipelines: &tracer.pipelines,
+                        buffers,
+                        prepared: traced,
+                    };
+                    context.record(*work);
+                }
+            }
             Work::ReadBack => {
                 if let Some(readback) = &prepared.readback {
                     readback.record(commands, target, textures);
@@ -250,7 +318,7 @@ impl Renderer {
     }
 
     /// Counts what the frame took.
-    fn note(&mut self, frame: &Frame, _prepared: &Prepared) {
+    fn note(&mut self, frame: &Frame, prepared: &Prepared) {
         let slot = &mut self.slots[self.current];
         let passes = std::mem::take(&mut slot.report.passes);
         slot.report = FrameReport {
@@ -262,6 +330,8 @@ impl Renderer {
             pipelines: self.raster.pipelines.len(),
             textures: self.textures.len(),
             retained_ranges: self.ranges.len(),
+            culled: prepared.schedule.graph.report().culled,
+            traced: prepared.traced.as_ref().map(|traced| traced.counts),
         };
     }
 }

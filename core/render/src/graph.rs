@@ -79,28 +79,23 @@ fn stages(class: StageClass) -> vk::PipelineStageFlags2 {
 fn access_flags(access: Access) -> vk::AccessFlags2 {
     use vk::AccessFlags2 as Flags;
     // Reads through addresses, of storage and of textures alike.
-    const READ: Flags = Flags::from_raw(
-        Flags::SHADER_STORAGE_READ.as_raw() | Flags::SHADER_SAMPLED_READ.as_raw(),
-    );
+    const READ: Flags =
+        Flags::from_raw(Flags::SHADER_STORAGE_READ.as_raw() | Flags::SHADER_SAMPLED_READ.as_raw());
     match access {
         Access::ColorAttachment => Flags::COLOR_ATTACHMENT_READ | Flags::COLOR_ATTACHMENT_WRITE,
         Access::DepthAttachment => {
             Flags::DEPTH_STENCIL_ATTACHMENT_READ | Flags::DEPTH_STENCIL_ATTACHMENT_WRITE
         }
         Access::DepthRead => Flags::DEPTH_STENCIL_ATTACHMENT_READ,
-        Access::SampledFragment | Access::SampledCompute | Access::SampledTrace => {
-            Flags::SHADER_SAMPLED_READ
-        }
-        Access::UniformGraphics | Access::UniformCompute | Access::UniformTrace => {
-            Flags::UNIFORM_READ
-        }
+        Access::SampledFragment | Access::SampledCompute | Access::SampledTrace => Flags::SHADER_SAMPLED_READ,
+        Access::UniformGraphics | Access::UniformCompute | Access::UniformTrace => Flags::UNIFORM_READ,
         Access::StorageReadVertex
         | Access::StorageReadFragment
         | Access::StorageReadCompute
         | Access::StorageReadTrace => READ,
-        Access::StorageWriteFragment
-        | Access::StorageWriteCompute
-        | Access::StorageWriteTrace => READ | Flags::SHADER_STORAGE_WRITE,
+        Access::StorageWriteFragment | Access::StorageWriteCompute | Access::StorageWriteTrace => {
+            READ | Flags::SHADER_STORAGE_WRITE
+        }
         Access::VertexRead => Flags::VERTEX_ATTRIBUTE_READ,
         Access::IndexRead => Flags::INDEX_READ,
         Access::IndirectRead => Flags::INDIRECT_COMMAND_READ,
@@ -111,9 +106,7 @@ fn access_flags(access: Access) -> vk::AccessFlags2 {
         Access::AccelerationTrace => Flags::ACCELERATION_STRUCTURE_READ_KHR,
         Access::TransferSrc => Flags::TRANSFER_READ,
         // A pass that copies to images may copy from others of them, too.
-        Access::TransferDst | Access::TransferWithin => {
-            Flags::TRANSFER_READ | Flags::TRANSFER_WRITE
-        }
+        Access::TransferDst | Access::TransferWithin => Flags::TRANSFER_READ | Flags::TRANSFER_WRITE,
         Access::HostRead => Flags::HOST_READ,
         Access::HostWrite => Flags::HOST_WRITE,
         Access::Present => Flags::NONE,

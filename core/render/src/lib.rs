@@ -2,7 +2,7 @@
 //!
 //! A frame's operations are sorted into steps (`plan`), the steps declared as passes of the frame graph (`schedule`),
 //! and the passes recorded (`execute`), one file a pass in `passes`. In `raster` mode the result is what OpenGL 1.5
-//! defines.
+//! defines; in `pathtrace` mode the world in it is lit by rays (`pathtrace`).
 
 mod bindings;
 mod error;
@@ -11,6 +11,7 @@ mod graph;
 mod numbers;
 mod overlaps;
 mod passes;
+mod pathtrace;
 mod pipeline_state;
 mod pipelines;
 mod plan;
@@ -34,6 +35,8 @@ mod textures;
 mod uploads;
 mod window;
 
+pub use afterglow_records::Paint;
 pub use error::RenderError;
+pub use pathtrace::{Displaced, Mode, PathtraceOptions, TraceCounts};
 pub use renderer::{RenderOptions, Renderer};
 pub use report::{FrameReport, PassReport};

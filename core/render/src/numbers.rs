@@ -33,15 +33,12 @@ impl Numbers {
         let (device, buffer) = (commands.device(), commands.raw());
         let antialiased = state.words.global.smooth() != 0;
         let line_width = line_width(raster.line_width.get(), antialiased, gpu);
-        let bias = raster
-            .depth_bias
-            .map_or([0.0; 2], |(factor, units)| [units.get(), factor.get()]);
-        let constants = raster
-            .blend
-            .map_or([0.0; 4], |blend| blend.constant.map(|component| component.get()));
-        let stencil = raster.stencil.map_or([0; 3], |stencil| {
-            [stencil.reference, stencil.compare_mask, stencil.write_mask]
-        });
+        let bias = raster.depth_bias.map_or([0.0; 2], |(factor, units)| [units.get(), factor.get()]);
+        let constants =
+            raster.blend.map_or([0.0; 4], |blend| blend.constant.map(|component| component.get()));
+        let stencil = raster
+            .stencil
+            .map_or([0; 3], |stencil| [stencil.reference, stencil.compare_mask, stencil.write_mask]);
         // SAFETY: the buffer is being recorded, and every value is one that the device allows.
         unsafe {
             if is_new(&mut self.line_width, line_width.to_bits()) {

@@ -25,16 +25,8 @@ impl Overlaps {
         let touched = match *transfer {
             Transfer::Wait => return false,
             Transfer::Upload { image, region, .. } => [Some((image, region)), None],
-            Transfer::Copy {
-                from,
-                region,
-                to,
-                to_level,
-            } => {
-                let target = Region {
-                    level: to_level,
-                    ..region
-                };
+            Transfer::Copy { from, region, to, to_level } => {
+                let target = Region { level: to_level, ..region };
                 [Some((from, region)), Some((to, target))]
             }
         };
@@ -66,8 +58,7 @@ impl Overlaps {
 fn intersect(a: &Region, b: &Region) -> bool {
     (0..3).all(|axis| {
         // Regions lie within images, whose sides fit 32 bits.
-        a.offset[axis] < b.offset[axis] + b.extent[axis]
-            && b.offset[axis] < a.offset[axis] + a.extent[axis]
+        a.offset[axis] < b.offset[axis] + b.extent[axis] && b.offset[axis] < a.offset[axis] + a.extent[axis]
     })
 }
 
@@ -78,25 +69,12 @@ mod tests {
     use afterglow_gpu::vk;
 
     fn region(x: u32, width: u32) -> Region {
-        Region {
-            level: 0,
-            layer: 0,
-            offset: [x, 0, 0],
-            extent: [width, 1, 1],
-        }
+        Region { level: 0, layer: 0, offset: [x, 0, 0], extent: [width, 1, 1] }
     }
 
     fn upload(image: ImageKey, region: Region) -> Transfer {
-        let from = Upload {
-            buffer: vk::Buffer::null(),
-            offset: 0,
-            address: 0,
-        };
-        Transfer::Upload {
-            image,
-            region,
-            from,
-        }
+        let from = Upload { buffer: vk::Buffer::null(), offset: 0, address: 0 };
+        Transfer::Upload { image, region, from }
     }
 
     #[test]
@@ -106,12 +84,7 @@ mod tests {
         assert!(!overlaps.add(&upload(a, region(0, 4))));
         assert!(!overlaps.add(&upload(a, region(4, 4))));
         assert!(!overlaps.add(&upload(b, region(0, 4))));
-        let copy = Transfer::Copy {
-            from: a,
-            region: region(0, 1),
-            to: b,
-            to_level: 1,
-        };
+        let copy = Transfer::Copy { from: a, region: region(0, 1), to: b, to_level: 1 };
         assert!(overlaps.add(&copy));
         assert!(!overlaps.add(&upload(a, region(4, 4))), "what came before the wait is forgotten");
         assert!(overlaps.add(&upload(a, region(0, 1))), "what is read must not be overwritten");

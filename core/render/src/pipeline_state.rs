@@ -56,10 +56,7 @@ impl PipelineRaster {
             blend: raster
                 .blend
                 .filter(|_| logic_op.is_none())
-                .map(|blend| Blend {
-                    constant: Default::default(),
-                    ..blend
-                }),
+                .map(|blend| Blend { constant: Default::default(), ..blend }),
             logic_op,
             color_mask: raster.color_mask,
             depth: raster.depth.map(|depth| (depth.compare, depth.write)),
@@ -68,9 +65,7 @@ impl PipelineRaster {
             front_ccw: raster.front_ccw || !polygons,
             depth_bias: polygons && raster.depth_bias.is_some(),
             line: match topology {
-                Topology::Lines => {
-                    LineKind::new(raster.line_stipple.is_some(), antialiased, features)
-                }
+                Topology::Lines => LineKind::new(raster.line_stipple.is_some(), antialiased, features),
                 _ => LineKind::Default,
             },
         }
@@ -98,12 +93,8 @@ impl PipelineRaster {
     pub(crate) fn lines(&self) -> Option<vk::PipelineRasterizationLineStateCreateInfoKHR<'static>> {
         let (mode, stippled) = match self.line {
             LineKind::Default => return None,
-            LineKind::Aliased { stippled } => {
-                (vk::LineRasterizationModeKHR::BRESENHAM, stippled)
-            }
-            LineKind::Smooth { stippled } => {
-                (vk::LineRasterizationModeKHR::RECTANGULAR_SMOOTH, stippled)
-            }
+            LineKind::Aliased { stippled } => (vk::LineRasterizationModeKHR::BRESENHAM, stippled),
+            LineKind::Smooth { stippled } => (vk::LineRasterizationModeKHR::RECTANGULAR_SMOOTH, stippled),
         };
         let lines = vk::PipelineRasterizationLineStateCreateInfoKHR::default()
             .line_rasterization_mode(mode)
@@ -116,10 +107,8 @@ impl PipelineRaster {
     pub(crate) fn depth_stencil(&self) -> vk::PipelineDepthStencilStateCreateInfo<'static> {
         let mut info = vk::PipelineDepthStencilStateCreateInfo::default();
         if let Some((compare, write)) = self.depth {
-            info = info
-                .depth_test_enable(true)
-                .depth_write_enable(write)
-                .depth_compare_op(compare_op(compare));
+            info =
+                info.depth_test_enable(true).depth_write_enable(write).depth_compare_op(compare_op(compare));
         }
         if let Some(test) = &self.stencil {
             let state = vk::StencilOpState {
@@ -172,13 +161,9 @@ impl StencilTest {
 impl LineKind {
     fn new(stippled: bool, antialiased: bool, features: &Features) -> Self {
         if antialiased && features.smooth_lines {
-            Self::Smooth {
-                stippled: stippled && features.stippled_smooth_lines,
-            }
+            Self::Smooth { stippled: stippled && features.stippled_smooth_lines }
         } else if features.bresenham_lines {
-            Self::Aliased {
-                stippled: stippled && features.stippled_bresenham_lines,
-            }
+            Self::Aliased { stippled: stippled && features.stippled_bresenham_lines }
         } else {
             Self::Default
         }
@@ -251,10 +236,7 @@ mod tests {
         };
         assert_eq!(key(&plain, Topology::Points), key(&wide, Topology::Points));
         assert_ne!(key(&plain, Topology::Triangles), key(&wide, Topology::Triangles));
-        let steeper = RasterState {
-            depth_bias: Some((7.0.into(), 2.0.into())),
-            ..wide
-        };
+        let steeper = RasterState { depth_bias: Some((7.0.into(), 2.0.into())), ..wide };
         assert_eq!(key(&wide, Topology::Triangles), key(&steeper, Topology::Triangles));
     }
 

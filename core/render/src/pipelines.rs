@@ -1,13 +1,12 @@
 //! Graphics pipelines: made when a state is first drawn with, and kept.
 
 use afterglow_gl::frame::{STATE_WORDS, StateWords, Topology, VertexLayout};
-use afterglow_gpu::{
-    BindlessTable, Gpu, GpuError, PipelineLayout, ShaderModule, Specialization, vk,
-};
+use afterglow_gpu::{BindlessTable, Gpu, GpuError, PipelineLayout, ShaderModule, Specialization, vk};
 use afterglow_records::{ClearPush, DrawPush};
 use hashbrown::HashMap;
 
 use crate::numbers::LineFunctions;
+use crate::pathtrace::buffers::VISIBILITY_FORMAT;
 use crate::pipeline_state::PipelineRaster;
 use crate::target::{COLOR_FORMAT, DepthFormat};
 
@@ -25,6 +24,17 @@ pub(crate) enum Program {
     Clear,
 }
 
+/// Whether a pipeline draws to the visibility buffer beside the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub(crate) enum Visibility {
+    /// There is none.
+    #[default]
+    Absent,
+    /// What it holds stays.
+    Kept,
+    Written,
+}
+
 /// What a pipeline depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct PipelineKey {
@@ -35,12 +45,14 @@ pub(crate) struct PipelineKey {
     /// Coordinates that the shader clamps, three bits a unit.
     pub(crate) clamps: u32,
     pub(crate) raster: PipelineRaster,
+    pub(crate) visibility: Visibility,
 }
 
 struct Modules {
     draw: ShaderModule,
     draw_clipped: ShaderModule,
     draw_fragment: ShaderModule,
+    visibility_fragment: ShaderModule,
     pixels: ShaderModule,
     pixels_fragment: ShaderModule,
     clear: ShaderModule,
@@ -102,19 +114,18 @@ impl Pipelines {
             Program::Pixels => (&modules.pixels, &modules.pixels_fragment),
             Program::Clear => (&modules.clear, &modules.clear_fragment),
         };
+        let fragment = match (key.program, key.visibility) {
+            (Program::Draw, Visibility::Written) => &modules.visibility_fragment,
+            _ => fragment,
+        };
         let constants = constants(key);
         let specialization = Specialization::new(&constants);
         let specialization = specialization.info();
         let stage = |stage, module: &ShaderModule| {
-            vk::PipelineShaderStageCreateInfo::default()
-                .stage(stage)
-                .module(module.raw())
-                .name(c"main")
+            vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module.raw()).name(c"main")
         };
-        let mut stages = [
-            stage(vk::ShaderStageFlags::VERTEX, vertex),
-            stage(vk::ShaderStageFlags::FRAGMENT, fragment),
-        ];
+        let mut stages =
+            [stage(vk::ShaderStageFlags::VERTEX, vertex), stage(vk::ShaderStageFlags::FRAGMENT, fragment)];
         if key.program != Program::Clear {
             stages = stages.map(|stage| stage.specialization_info(&specialization));
         }
@@ -127,16 +138,13 @@ impl Pipelines {
         stages: &[vk::PipelineShaderStageCreateInfo<'_>],
     ) -> Result<vk::Pipeline, GpuError> {
         let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
-        let input_assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(
-            match key.topology {
+        let input_assembly =
+            vk::PipelineInputAssemblyStateCreateInfo::default().topology(match key.topology {
                 Topology::Points => vk::PrimitiveTopology::POINT_LIST,
                 Topology::Lines => vk::PrimitiveTopology::LINE_LIST,
                 Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
-            },
-        );
-        let viewport = vk::PipelineViewportStateCreateInfo::default()
-            .viewport_count(1)
-            .scissor_count(1);
+            });
+        let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let mut lines = key.raster.lines();
         let mut rasterization = key.raster.rasterization();
         if let Some(lines) = &mut lines {
@@ -145,16 +153,17 @@ impl Pipelines {
         let multisample = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
         let depth_stencil = key.raster.depth_stencil();
-        let attachments = [key.raster.blend_attachment()];
-        let mut blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
+        let attachments = [key.raster.blend_attachment(), key.visibility.attachment()];
+        let count = if key.visibility == Visibility::Absent { 1 } else { 2 };
+        let mut blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments[..count]);
         if let Some(op) = key.raster.logic_op() {
             blend = blend.logic_op_enable(true).logic_op(op);
         }
         let dynamic_states = self.dynamic_states();
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
-        let color_formats = [COLOR_FORMAT];
+        let color_formats = [COLOR_FORMAT, VISIBILITY_FORMAT];
         let mut rendering = vk::PipelineRenderingCreateInfo::default()
-            .color_attachment_formats(&color_formats)
+            .color_attachment_formats(&color_formats[..count])
             .depth_attachment_format(self.depth_format.vulkan)
             .stencil_attachment_format(self.depth_format.vulkan);
         let layout = match key.program {
@@ -174,17 +183,11 @@ impl Pipelines {
             .layout(layout.raw())
             .push_next(&mut rendering);
         // SAFETY: all that `info` points to is alive; the cache synchronises itself.
-        let created = unsafe {
-            self.gpu
-                .device()
-                .create_graphics_pipelines(self.gpu.pipeline_cache(), &[info], None)
-        };
+        let created =
+            unsafe { self.gpu.device().create_graphics_pipelines(self.gpu.pipeline_cache(), &[info], None) };
         match created {
             Ok(pipelines) => Ok(pipelines[0]),
-            Err((_, result)) => Err(GpuError::Vulkan {
-                what: "create a graphics pipeline",
-                result,
-            }),
+            Err((_, result)) => Err(GpuError::Vulkan { what: "create a graphics pipeline", result }),
         }
     }
 
@@ -219,6 +222,16 @@ impl Drop for Pipelines {
     }
 }
 
+impl Visibility {
+    fn attachment(self) -> vk::PipelineColorBlendAttachmentState {
+        let written = match self {
+            Self::Written => vk::ColorComponentFlags::R | vk::ColorComponentFlags::G,
+            Self::Absent | Self::Kept => vk::ColorComponentFlags::empty(),
+        };
+        vk::PipelineColorBlendAttachmentState::default().color_write_mask(written)
+    }
+}
+
 impl Modules {
     fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         use afterglow_shaders as shaders;
@@ -226,6 +239,7 @@ impl Modules {
             draw: gpu.create_shader_module("raster.vert", shaders::RASTER_VERT)?,
             draw_clipped: gpu.create_shader_module("clip.vert", shaders::RASTER_CLIP_VERT)?,
             draw_fragment: gpu.create_shader_module("raster.frag", shaders::RASTER_FRAG)?,
+            visibility_fragment: gpu.create_shader_module("visibility.frag", shaders::VISIBILITY_FRAG)?,
             pixels: gpu.create_shader_module("pixels.vert", shaders::PIXELS_VERT)?,
             pixels_fragment: gpu.create_shader_module("pixels.frag", shaders::PIXELS_FRAG)?,
             clear: gpu.create_shader_module("clear.vert", shaders::CLEAR_VERT)?,

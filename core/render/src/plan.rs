@@ -76,6 +76,8 @@ pub(crate) struct RasterStep {
     pub(crate) first_draw: usize,
     /// Rectangles of pixels of the frame before them.
     pub(crate) first_pixels: usize,
+    /// The view that the operations make up, if they are traced.
+    pub(crate) view: Option<usize>,
 }
 
 /// All that is to be done for a frame.
@@ -90,12 +92,27 @@ pub(crate) struct Plan {
     pub(crate) dropped: Vec<ImageKey>,
 }
 
+impl Plan {
+    /// The view whose last operations the step of this number draws, if it is one's.
+    pub(crate) fn finished_view(&self, index: usize) -> Option<usize> {
+        let view = |step: &Step| match step {
+            Step::Raster(step) => step.view,
+            _ => None,
+        };
+        let drawn = view(&self.steps[index])?;
+        let goes_on = self.steps[index + 1..].iter().any(|step| view(step) == Some(drawn));
+        (!goes_on).then_some(drawn)
+    }
+}
+
 /// What planning needs of the renderer.
 pub(crate) struct Planner<'a> {
     pub(crate) textures: &'a mut Textures,
     pub(crate) table: &'a BindlessTable,
     pub(crate) arena: &'a mut UploadArena,
     pub(crate) size: [u32; 2],
+    /// Operations that are views to be traced.
+    pub(crate) views: &'a [Range<usize>],
 }
 
 impl Planner<'_> {
@@ -103,6 +120,7 @@ impl Planner<'_> {
     pub(crate) fn plan(mut self, frame: &Frame) -> Result<Plan, GpuError> {
         let mut sorter = Sorter::default();
         for (index, operation) in frame.operations.iter().enumerate() {
+            sorter.enter(self.views.iter().position(|view| view.contains(&index)));
             self.operation(&mut sorter, frame, index, operation)?;
         }
         Ok(sorter.finish(self.textures))
@@ -138,12 +156,9 @@ impl Planner<'_> {
             Operation::DefineImage { image, shape } => self.define(sorter, *image, shape)?,
             Operation::Upload(upload) => self.upload(sorter, upload)?,
             Operation::CopyToImage(copy) => self.copy_to_image(sorter, copy),
-            Operation::CopyImage {
-                from,
-                region,
-                to,
-                to_level,
-            } => self.copy_image(sorter, *from, *region, *to, *to_level),
+            Operation::CopyImage { from, region, to, to_level } => {
+                self.copy_image(sorter, *from, *region, *to, *to_level)
+            }
             Operation::DropImage(image) => sorter.drop_image(*image),
             Operation::ClearAccumulation(_) | Operation::Accumulate(..) => {
                 sorter.push(Step::Accumulate(index));
@@ -152,12 +167,7 @@ impl Planner<'_> {
         Ok(())
     }
 
-    fn define(
-        &mut self,
-        sorter: &mut Sorter,
-        image: ImageKey,
-        shape: &ImageShape,
-    ) -> Result<(), GpuError> {
+    fn define(&mut self, sorter: &mut Sorter, image: ImageKey, shape: &ImageShape) -> Result<(), GpuError> {
         if self.textures.define(self.table, image, shape)? {
             sorter.define(image);
         }
@@ -178,11 +188,7 @@ impl Planner<'_> {
             sorter.fill(image, &region);
         }
         let from = self.arena.push(&upload.texels)?;
-        let transfer = Transfer::Upload {
-            image,
-            region,
-            from,
-        };
+        let transfer = Transfer::Upload { image, region, from };
         sorter.transfer(is_early, transfer);
         Ok(())
     }
@@ -195,10 +201,7 @@ impl Planner<'_> {
         to: ImageKey,
         to_level: u32,
     ) {
-        let target_region = Region {
-            level: to_level,
-            ..region
-        };
+        let target_region = Region { level: to_level, ..region };
         let fits = |image, region| {
             let texture = self.textures.get(image);
             texture.is_some_and(|texture: &Texture| texture.holds(region))
@@ -208,12 +211,7 @@ impl Planner<'_> {
             return;
         }
         let is_early = !sorter.is_used(from) && !sorter.is_used(to);
-        let transfer = Transfer::Copy {
-            from,
-            region,
-            to,
-            to_level,
-        };
+        let transfer = Transfer::Copy { from, region, to, to_level };
         sorter.transfer(is_early, transfer);
     }
 

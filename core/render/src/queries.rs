@@ -33,11 +33,7 @@ pub(crate) struct Queries {
 
 impl SegmentPool {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            gpu: gpu.clone(),
-            pools: Vec::new(),
-            segments: Vec::new(),
-        }
+        Self { gpu: gpu.clone(), pools: Vec::new(), segments: Vec::new() }
     }
 
     fn add(&mut self, segment: Segment) -> Result<(vk::QueryPool, u32), GpuError> {
@@ -50,18 +46,14 @@ impl SegmentPool {
     }
 
     fn add_pool(&mut self) -> Result<(), GpuError> {
-        let info = vk::QueryPoolCreateInfo::default()
-            .query_type(vk::QueryType::OCCLUSION)
-            .query_count(POOL_SIZE);
+        let info =
+            vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::OCCLUSION).query_count(POOL_SIZE);
         // SAFETY: the device is alive; queries may be reset by the host, which is a required feature.
         let pool = unsafe {
             let pool = self.gpu.device().create_query_pool(&info, None);
             pool.inspect(|pool| self.gpu.device().reset_query_pool(*pool, 0, POOL_SIZE))
         };
-        self.pools.push(pool.map_err(|result| GpuError::Vulkan {
-            what: "create a query pool",
-            result,
-        })?);
+        self.pools.push(pool.map_err(|result| GpuError::Vulkan { what: "create a query pool", result })?);
         Ok(())
     }
 
@@ -102,11 +94,7 @@ impl Queries {
     }
 
     /// A pass begins: goes on counting.
-    pub(crate) fn resume(
-        &mut self,
-        commands: &Commands<'_>,
-        pool: &mut SegmentPool,
-    ) -> Result<(), GpuError> {
+    pub(crate) fn resume(&mut self, commands: &Commands<'_>, pool: &mut SegmentPool) -> Result<(), GpuError> {
         let Some(segment) = &mut self.active else {
             return Ok(());
         };
@@ -119,9 +107,7 @@ impl Queries {
         };
         // SAFETY: the query was reset and is not active.
         unsafe {
-            commands
-                .device()
-                .cmd_begin_query(commands.raw(), raw, query, flags);
+            commands.device().cmd_begin_query(commands.raw(), raw, query, flags);
         }
         self.open = Some(number);
         Ok(())
@@ -146,10 +132,7 @@ impl Queries {
             // SAFETY: the pool has these queries, all of them ended, and none is in use any more.
             unsafe {
                 let read = device.get_query_pool_results(*raw, 0, &mut counts, flags);
-                read.map_err(|result| GpuError::Vulkan {
-                    what: "read queries",
-                    result,
-                })?;
+                read.map_err(|result| GpuError::Vulkan { what: "read queries", result })?;
                 device.reset_query_pool(*raw, 0, POOL_SIZE);
             }
             for (segment, count) in chunk.iter().zip(counts) {

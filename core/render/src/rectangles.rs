@@ -1,8 +1,8 @@
 //! Rectangles of pixels (glDrawPixels, glBitmap, glCopyPixels) as records for the shader that draws them.
 
 use afterglow_gl::frame::{
-    Compare, FixedState, Frame, Operation, PixelBuffer, PixelContent, PixelCopy, PixelRectangle,
-    RasterState, Rect, StateWords, Stencil, StencilOp,
+    Compare, FixedState, Frame, Operation, PixelBuffer, PixelContent, PixelCopy, PixelRectangle, RasterState,
+    Rect, StateWords, Stencil, StencilOp,
 };
 use afterglow_gpu::{GpuError, vk};
 use afterglow_records::{PixelKind, PixelRecord};
@@ -65,10 +65,8 @@ impl Rectangles {
             let is_stencil = record.kind == PixelKind::Stencil as u32;
             self.records.push(record);
             if is_stencil {
-                self.records.extend((0..STENCIL_BITS).map(|bit| PixelRecord {
-                    stencil_bit: 1 << bit,
-                    ..record
-                }));
+                self.records
+                    .extend((0..STENCIL_BITS).map(|bit| PixelRecord { stencil_bit: 1 << bit, ..record }));
             }
             Rectangle { first, is_stencil }
         }));
@@ -121,12 +119,7 @@ pub(crate) fn copy_source(copy: &PixelCopy, size: [u32; 2]) -> Option<(Rect, vk:
 }
 
 /// The record of pixels that were read from the window, the highest row first.
-fn copied(
-    copy: &PixelCopy,
-    frame: &Frame,
-    size: [u32; 2],
-    store: PixelStore,
-) -> Option<PixelRecord> {
+fn copied(copy: &PixelCopy, frame: &Frame, size: [u32; 2], store: PixelStore) -> Option<PixelRecord> {
     let (clipped, _) = copy_source(copy, size)?;
     let moved = |axis: usize, from: i32, to: i32| {
         copy.position[axis] + (i64::from(to) - i64::from(from)) as f32 * copy.zoom[axis]
@@ -140,10 +133,7 @@ fn copied(
     let is_drawable = copy.zoom.iter().all(|zoom| *zoom != 0.0);
     is_drawable.then(|| PixelRecord {
         source: store.address,
-        position: [
-            moved(0, copy.source.x, clipped.x),
-            moved(1, copy.source.y, clipped.y),
-        ],
+        position: [moved(0, copy.source.x, clipped.x), moved(1, copy.source.y, clipped.y)],
         zoom: copy.zoom,
         size: [clipped.width as f32, clipped.height as f32],
         row_step: -clipped.width,

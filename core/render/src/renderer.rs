@@ -9,6 +9,7 @@ use crate::passes::accumulate::Accumulator;
 use crate::passes::copy::Flip;
 use crate::passes::raster::RasterState;
 use crate::passes::readback::{Asked, Question};
+use crate::pathtrace::{Mode, PathtraceOptions, Tracer};
 use crate::rectangles::Rectangles;
 use crate::report::FrameReport;
 use crate::retained::RetainedRanges;
@@ -51,6 +52,8 @@ pub struct Renderer {
     /// Buffer swaps so far.
     pub(crate) swaps: u64,
     pub(crate) report: FrameReport,
+    /// Path tracing; none in `raster` mode.
+    pub(crate) tracer: Option<Tracer>,
     recycled: Vec<Frame>,
     has_failed: bool,
     /// Dropped last of all: slots of the table are given back to it.
@@ -79,6 +82,7 @@ impl Renderer {
             rectangles: Rectangles::default(),
             swaps: 0,
             report: FrameReport::default(),
+            tracer: None,
             recycled: Vec::new(),
             has_failed: false,
             table,
@@ -100,25 +104,58 @@ impl Renderer {
     /// # Errors
     /// If the device fails; then the frame, and what comes after it, may be lost.
     pub fn execute(&mut self, frame: &Frame) -> Result<(), RenderError> {
-        self.execute_and_read(frame, None).map(|_| ())
+        self.execute_and_read(frame, None, None).map(|_| ())
+    }
+
+    /// Executes a frame with its world traced, in [`Mode::Pathtrace`] and where there is a world. The frame's
+    /// operations may change their order.
+    ///
+    /// # Errors
+    /// If the device fails; then the frame, and what comes after it, may be lost.
+    pub fn execute_traced(&mut self, frame: &mut Frame) -> Result<(), RenderError> {
+        let tracing = self.tracer.as_mut().and_then(|tracer| tracer.understand(frame));
+        self.execute_and_read(frame, None, tracing.as_ref()).map(|_| ())
+    }
+
+    /// Sets what frames become from now on.
+    ///
+    /// # Errors
+    /// If the device fails. One that cannot trace stays in [`Mode::Raster`].
+    pub fn set_mode(&mut self, mode: Mode, options: &PathtraceOptions) -> Result<(), RenderError> {
+        match (mode, &mut self.tracer) {
+            (Mode::Raster, _) => {
+                if let Some(buffers) = self.tracer.take().and_then(|tracer| tracer.buffers) {
+                    buffers.release(&self.table);
+                }
+            }
+            (Mode::Pathtrace, Some(tracer)) => tracer.options = options.clone(),
+            (Mode::Pathtrace, None) => {
+                self.tracer = Tracer::new(&self.gpu, &self.table, options.clone())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What frames become.
+    pub fn mode(&self) -> Mode {
+        match self.tracer {
+            Some(_) => Mode::Pathtrace,
+            None => Mode::Raster,
+        }
     }
 
     /// Executes a frame's operations and answers a question about the result.
     ///
     /// # Errors
     /// If the device fails.
-    pub fn execute_and_answer(
-        &mut self,
-        frame: &Frame,
-        request: &Request,
-    ) -> Result<Reply, RenderError> {
+    pub fn execute_and_answer(&mut self, frame: &Frame, request: &Request) -> Result<Reply, RenderError> {
         self.resize(frame)?;
         let asked = Question::of(request, frame, self.target.size, &self.textures);
         let question = match &asked {
             Asked::Read(question) => Some(*question),
             Asked::Answered(_) => None,
         };
-        let readback = self.execute_and_read(frame, question)?;
+        let readback = self.execute_and_read(frame, question, None)?;
         self.finish()?;
         Ok(match (asked, readback, request) {
             (_, _, Request::Query(id)) => Reply::Samples(self.raster.queries.samples(*id)),
@@ -136,22 +173,10 @@ impl Renderer {
     /// If the device fails.
     pub fn read_color(&mut self) -> Result<Vec<u8>, RenderError> {
         let [width, height] = self.target.size;
-        let rect = Rect {
-            x: 0,
-            y: 0,
-            width: width as i32,
-            height: height as i32,
-        };
-        let question = Question::Window {
-            buffer: PixelBuffer::Color,
-            rect,
-            clipped: rect,
-        };
-        let frame = Frame {
-            size: (width, height),
-            ..Frame::default()
-        };
-        let readback = self.execute_and_read(&frame, Some(question))?;
+        let rect = Rect { x: 0, y: 0, width: width as i32, height: height as i32 };
+        let question = Question::Window { buffer: PixelBuffer::Color, rect, clipped: rect };
+        let frame = Frame { size: (width, height), ..Frame::default() };
+        let readback = self.execute_and_read(&frame, Some(question), None)?;
         self.finish()?;
         readback.map_or_else(|| Ok(Vec::new()), |readback| Ok(readback.bytes()?))
     }
@@ -193,6 +218,22 @@ impl Renderer {
         self.current = (self.current + 1) % FRAMES_IN_FLIGHT;
     }
 
+    /// Whether a frame has all that the program drew between two swaps, so that its world can be traced.
+    fn is_whole(&mut self, frame: &Frame, end: End) -> bool {
+        let Some(tracer) = &mut self.tracer else {
+            return false;
+        };
+        let is_whole = !tracer.is_cut && end == End::Swap;
+        tracer.is_cut = end == End::Continued;
+        if !is_whole {
+            tracer.recovery.observe(frame);
+            if !std::mem::replace(&mut tracer.has_warned, true) {
+                tracing::info!("frames that are handed over in parts are rasterized");
+            }
+        }
+        is_whole
+    }
+
     fn recycle_frame(&mut self, mut frame: Frame) {
         if self.recycled.len() < RECYCLED_FRAMES {
             frame.clear();
@@ -201,10 +242,7 @@ impl Renderer {
     }
 
     /// Runs `work` unless the device has failed; a failure is logged, once.
-    fn unless_failed<T>(
-        &mut self,
-        work: impl FnOnce(&mut Self) -> Result<T, RenderError>,
-    ) -> Option<T> {
+    fn unless_failed<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T, RenderError>) -> Option<T> {
         if self.has_failed {
             return None;
         }
@@ -220,8 +258,11 @@ impl Renderer {
 }
 
 impl Backend for Renderer {
-    fn submit(&mut self, frame: Frame, end: End) {
-        self.unless_failed(|renderer| renderer.execute(&frame));
+    fn submit(&mut self, mut frame: Frame, end: End) {
+        self.unless_failed(|renderer| match renderer.is_whole(&frame, end) {
+            true => renderer.execute_traced(&mut frame),
+            false => renderer.execute(&frame),
+        });
         if end == End::Swap {
             self.swaps += 1;
         }
@@ -229,6 +270,8 @@ impl Backend for Renderer {
     }
 
     fn answer(&mut self, so_far: Frame, request: Request) -> Reply {
+        let goes_on = !so_far.operations.is_empty();
+        self.is_whole(&so_far, if goes_on { End::Continued } else { End::Swap });
         let reply = self.unless_failed(|renderer| renderer.execute_and_answer(&so_far, &request));
         self.recycle_frame(so_far);
         reply.unwrap_or(Reply::Unavailable)

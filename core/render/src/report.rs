@@ -1,5 +1,9 @@
 //! What a frame cost.
 
+use afterglow_frame_graph::CulledReport;
+
+use crate::pathtrace::TraceCounts;
+
 /// Time of one kind of pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PassReport {
@@ -30,6 +34,10 @@ pub struct FrameReport {
     pub textures: usize,
     /// Retained ranges on the device at the frame's end.
     pub retained_ranges: usize,
+    /// Passes that were not needed, and why.
+    pub culled: Vec<CulledReport>,
+    /// What of the world was traced; none if the frame was rasterized.
+    pub traced: Option<TraceCounts>,
 }
 
 impl FrameReport {
@@ -37,11 +45,7 @@ impl FrameReport {
     pub(crate) fn add_pass(&mut self, name: &str) {
         match self.passes.iter_mut().find(|pass| pass.name == name) {
             Some(pass) => pass.count += 1,
-            None => self.passes.push(PassReport {
-                name: name.to_owned(),
-                count: 1,
-                milliseconds: 0.0,
-            }),
+            None => self.passes.push(PassReport { name: name.to_owned(), count: 1, milliseconds: 0.0 }),
         }
     }
 
@@ -73,6 +77,8 @@ impl FrameReport {
         self.pipelines = later.pipelines;
         self.textures = later.textures;
         self.retained_ranges = later.retained_ranges;
+        self.culled.extend(later.culled);
+        self.traced = later.traced.or(self.traced);
     }
 }
 
@@ -83,11 +89,7 @@ mod tests {
     #[test]
     fn parts_of_a_frame_add_up_and_another_frame_begins_anew() {
         let part = |index, draws| {
-            let mut report = FrameReport {
-                index,
-                draws,
-                ..FrameReport::default()
-            };
+            let mut report = FrameReport { index, draws, ..FrameReport::default() };
             report.add_pass("raster");
             report.add_pass("raster");
             report.add_time("raster", 1_500_000);

@@ -68,13 +68,7 @@ pub(crate) struct RetainedRanges {
 
 impl RetainedRanges {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            gpu: gpu.clone(),
-            slabs: Vec::new(),
-            entries: HashMap::new(),
-            dropped: Vec::new(),
-            frame: 0,
-        }
+        Self { gpu: gpu.clone(), slabs: Vec::new(), entries: HashMap::new(), dropped: Vec::new(), frame: 0 }
     }
 
     /// A new frame begins: memory of ranges that were dropped long enough ago becomes free.
@@ -84,9 +78,8 @@ impl RetainedRanges {
             self.sweep();
         }
         let idle = |noticed: u64| noticed + FRAMES_IN_USE <= self.frame;
-        let (free, kept) = std::mem::take(&mut self.dropped)
-            .into_iter()
-            .partition(|(noticed, _, _)| idle(*noticed));
+        let (free, kept) =
+            std::mem::take(&mut self.dropped).into_iter().partition(|(noticed, _, _)| idle(*noticed));
         self.dropped = kept;
         let free: Vec<(u64, usize, Range<u64>)> = free;
         for (_, slab, bytes) in free {
@@ -126,12 +119,7 @@ impl RetainedRanges {
                 });
             }
         }
-        let entry = Entry {
-            range: Arc::downgrade(range),
-            slab,
-            bytes: place,
-            resident,
-        };
+        let entry = Entry { range: Arc::downgrade(range), slab, bytes: place, resident };
         self.entries.insert(range.id(), entry);
         Ok(resident)
     }
@@ -169,10 +157,7 @@ impl RetainedRanges {
         let size = bytes.max(SLAB_BYTES);
         let desc = BufferDesc::new("retained ranges", BufferKind::Device, size)
             .usage(vk::BufferUsageFlags::INDEX_BUFFER);
-        let mut slab = Slab {
-            buffer: self.gpu.create_buffer(&desc)?,
-            free: RangeAllocator::new(0..size),
-        };
+        let mut slab = Slab { buffer: self.gpu.create_buffer(&desc)?, free: RangeAllocator::new(0..size) };
         // A fresh slab holds at least this range.
         let place = slab.free.allocate_range(bytes).unwrap_or(0..bytes);
         let vacant = self.slabs.iter().position(Option::is_none);
@@ -198,16 +183,11 @@ impl RetainedRanges {
 /// Records copies of ranges to their places.
 pub(crate) fn record_copies(commands: &Commands<'_>, copies: &[RangeCopy]) {
     for copy in copies {
-        let regions = [vk::BufferCopy {
-            src_offset: copy.from.offset,
-            dst_offset: copy.offset,
-            size: copy.bytes,
-        }];
+        let regions =
+            [vk::BufferCopy { src_offset: copy.from.offset, dst_offset: copy.offset, size: copy.bytes }];
         // SAFETY: both buffers are this device's and hold these bytes; the target's are allocated for this range.
         unsafe {
-            commands
-                .device()
-                .cmd_copy_buffer(commands.raw(), copy.from.buffer, copy.to, &regions);
+            commands.device().cmd_copy_buffer(commands.raw(), copy.from.buffer, copy.to, &regions);
         }
     }
 }

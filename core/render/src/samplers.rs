@@ -45,11 +45,7 @@ impl Samplers {
         base_format: BaseFormat,
         lod_bias: f32,
     ) -> Result<u32, GpuError> {
-        let key = Key {
-            sampler: *sampler,
-            base_format,
-            lod_bias: lod_bias.into(),
-        };
+        let key = Key { sampler: *sampler, base_format, lod_bias: lod_bias.into() };
         if let Some(index) = self.indices.get(&key) {
             return Ok(*index);
         }
@@ -70,8 +66,7 @@ impl Samplers {
         let border = border_color(&key.sampler.border_color, key.base_format);
         let standard = standard_border(border);
         let features = self.gpu.features();
-        let has_custom =
-            features.custom_border_colors && features.custom_border_color_without_format;
+        let has_custom = features.custom_border_colors && features.custom_border_color_without_format;
         let mut custom = vk::SamplerCustomBorderColorCreateInfoEXT::default()
             .custom_border_color(vk::ClearColorValue { float32: border });
         let mut info = sampler_info(key, &self.gpu, self.filters_depth);
@@ -80,9 +75,7 @@ impl Samplers {
         match standard {
             Some(color) => info = info.border_color(color),
             None if meets_border && has_custom => {
-                info = info
-                    .border_color(vk::BorderColor::FLOAT_CUSTOM_EXT)
-                    .push_next(&mut custom);
+                info = info.border_color(vk::BorderColor::FLOAT_CUSTOM_EXT).push_next(&mut custom);
             }
             None => info = info.border_color(nearest_border(border)),
         }
@@ -203,9 +196,8 @@ mod tests {
         let table = gpu.create_bindless_table(BindlessSizes::default()).unwrap();
         let mut samplers = Samplers::new(&gpu);
         let nearest = testing::nearest();
-        let mut index = |sampler: &Sampler, bias: f32| {
-            samplers.index(&table, sampler, BaseFormat::Rgba, bias).unwrap()
-        };
+        let mut index =
+            |sampler: &Sampler, bias: f32| samplers.index(&table, sampler, BaseFormat::Rgba, bias).unwrap();
         let first = index(&nearest, 0.0);
         assert_eq!(index(&nearest, 0.0), first);
         assert_ne!(index(&nearest, -1.0), first);

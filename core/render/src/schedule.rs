@@ -3,13 +3,15 @@
 use std::ops::Range;
 
 use afterglow_frame_graph::{
-    Access, CompiledGraph, GraphBuilder, GraphError, PassKind, ResourceDesc, ResourceId,
-    ResourceState,
+    Access, CompiledGraph, GraphBuilder, GraphError, PassKind, ResourceDesc, ResourceId, ResourceState,
 };
 use afterglow_gl::frame::{Frame, Operation, PixelBuffer};
 
 use crate::passes::accumulate::Accumulated;
 use crate::passes::readback::Question;
+use crate::pathtrace::PreparedTrace;
+use crate::pathtrace::buffers::ViewBuffers;
+use crate::pathtrace::schedule::{TraceWork, ViewResources, declare_view};
 use crate::plan::{Plan, RasterStep, Step};
 use crate::target::Target;
 
@@ -20,7 +22,8 @@ pub(crate) enum Work {
     First(Range<usize>),
     /// A part of the plan's transfers.
     Transfers(Range<usize>),
-    Raster(RasterStep),
+    /// A run of drawing operations, and whether a traced view begins with it.
+    Raster(RasterStep, bool),
     /// A batch of copies to textures, in three steps.
     CopyRead(usize),
     CopyFlip(usize),
@@ -31,6 +34,8 @@ pub(crate) enum Work {
     Accumulate(Accumulated),
     AccumulateWrite(Accumulated),
     ReadBack,
+    /// A pass of a traced view.
+    Trace(TraceWork),
 }
 
 /// How the last frame left what lives longer than a frame.
@@ -59,8 +64,18 @@ pub(crate) struct Resources {
 pub(crate) struct Schedule {
     pub(crate) graph: CompiledGraph,
     pub(crate) resources: Resources,
+    /// Those of traced views, if there are any.
+    pub(crate) views: Option<ViewResources>,
     /// By the numbers of the graph's passes.
     pub(crate) work: Vec<Work>,
+}
+
+/// The views of a frame that is traced.
+pub(crate) struct TracedViews<'a> {
+    pub(crate) buffers: &'a ViewBuffers,
+    /// How the last frame left the world's meshes.
+    pub(crate) world: ResourceState,
+    pub(crate) prepared: &'a PreparedTrace,
 }
 
 /// Sizes of buffers, at least 1: the graph knows no empty ones.
@@ -78,6 +93,7 @@ pub(crate) fn schedule(
     sizes: &Sizes,
     has_first: bool,
     question: Option<&Question>,
+    traced: Option<&TracedViews<'_>>,
 ) -> Result<Schedule, GraphError> {
     let mut graph = GraphBuilder::new();
     let buffer = |bytes: u64| ResourceDesc::Buffer { bytes: bytes.max(1) };
@@ -87,29 +103,22 @@ pub(crate) fn schedule(
         textures: graph.import("textures", buffer(1), lasting.textures),
         geometry: graph.import("geometry", buffer(1), lasting.geometry),
         store: graph.import("store", buffer(sizes.store), lasting.store),
-        accumulation: graph.import(
-            "accumulation",
-            buffer(sizes.accumulation),
-            lasting.accumulation,
-        ),
+        accumulation: graph.import("accumulation", buffer(sizes.accumulation), lasting.accumulation),
     };
-    for output in [
-        resources.color,
-        resources.depth,
-        resources.textures,
-        resources.geometry,
-        resources.accumulation,
-    ] {
+    for output in
+        [resources.color, resources.depth, resources.textures, resources.geometry, resources.accumulation]
+    {
         graph.output(output);
     }
-    let mut declaring = Declaring {
-        graph,
-        resources,
-        work: Vec::with_capacity(plan.steps.len() + 1),
-    };
+    let views = traced.map(|traced| ViewResources::declare(&mut graph, traced.buffers, traced.world));
+    let mut declaring =
+        Declaring { graph, resources, views, begun: None, work: Vec::with_capacity(plan.steps.len() + 1) };
     for (index, step) in plan.steps.iter().enumerate() {
         if index > 0 || has_first {
             declaring.step(index, step, plan, frame, target.size);
+        }
+        if let (Some(traced), Some(view)) = (traced, plan.finished_view(index)) {
+            declaring.view(view, traced.prepared);
         }
     }
     if let Some(question) = question {
@@ -118,6 +127,7 @@ pub(crate) fn schedule(
     Ok(Schedule {
         graph: declaring.graph.compile()?,
         resources,
+        views: declaring.views,
         work: declaring.work,
     })
 }
@@ -125,6 +135,9 @@ pub(crate) fn schedule(
 struct Declaring {
     graph: GraphBuilder,
     resources: Resources,
+    views: Option<ViewResources>,
+    /// The view that has been drawn to last.
+    begun: Option<usize>,
     work: Vec<Work>,
 }
 
@@ -160,13 +173,12 @@ impl Declaring {
     }
 
     fn raster(&mut self, step: &RasterStep, frame: &Frame) {
-        self.work.push(Work::Raster(step.clone()));
+        let begins_view = step.view.is_some() && self.begun != step.view;
+        self.work.push(Work::Raster(step.clone(), begins_view));
         // Only the first operation after pixels were read can draw them.
-        let draws_store = matches!(
-            frame.operations[step.operations.start],
-            Operation::CopyPixels(_)
-        );
-        let mut pass = self.graph.pass("raster", PassKind::Graphics);
+        let draws_store = matches!(frame.operations[step.operations.start], Operation::CopyPixels(_));
+        let name = if step.view.is_some() { "visibility" } else { "raster" };
+        let mut pass = self.graph.pass(name, PassKind::Graphics);
         pass.read_write(self.resources.color, Access::ColorAttachment)
             .read_write(self.resources.depth, Access::DepthAttachment)
             .read(self.resources.textures, Access::StorageReadFragment)
@@ -175,16 +187,33 @@ impl Declaring {
         if draws_store {
             pass.read(self.resources.store, Access::StorageReadFragment);
         }
+        if let (Some(views), Some(_)) = (&self.views, step.view) {
+            match self.begun == step.view {
+                true => pass.read_write(views.visibility, Access::ColorAttachment),
+                false => pass.write(views.visibility, Access::ColorAttachment),
+            };
+        }
+        self.begun = step.view.or(self.begun);
+    }
+
+    /// The passes that light a view, which has been drawn.
+    fn view(&mut self, view: usize, prepared: &PreparedTrace) {
+        let Some(views) = &self.views else { return };
+        let mut work = Vec::new();
+        declare_view(
+            &mut self.graph,
+            &mut work,
+            &self.resources,
+            views,
+            view,
+            &prepared.views[view].needs,
+            !prepared.copies.is_empty(),
+        );
+        self.work.extend(work.into_iter().map(Work::Trace));
     }
 
     fn copy(&mut self, batch: usize, plan: &Plan) {
-        let Resources {
-            color,
-            depth,
-            textures,
-            store,
-            ..
-        } = self.resources;
+        let Resources { color, depth, textures, store, .. } = self.resources;
         let source = if plan.batches[batch].from_depth { depth } else { color };
         self.work.push(Work::CopyRead(batch));
         self.graph
@@ -192,9 +221,7 @@ impl Declaring {
             .read(source, Access::TransferSrc)
             .write(store, Access::TransferDst);
         self.work.push(Work::CopyFlip(batch));
-        self.graph
-            .pass("copy to texture", PassKind::Compute)
-            .read_write(store, Access::StorageWriteCompute);
+        self.graph.pass("copy to texture", PassKind::Compute).read_write(store, Access::StorageWriteCompute);
         self.work.push(Work::CopyWrite(batch));
         self.graph
             .pass("copy to texture", PassKind::Transfer)
@@ -207,9 +234,7 @@ impl Declaring {
             Operation::CopyPixels(copy) => copy.buffer == PixelBuffer::Color,
             _ => true,
         };
-        let Resources {
-            color, depth, store, ..
-        } = self.resources;
+        let Resources { color, depth, store, .. } = self.resources;
         self.work.push(Work::ReadPixels(operation));
         self.graph
             .pass("copy pixels", PassKind::Transfer)
@@ -218,12 +243,7 @@ impl Declaring {
     }
 
     fn accumulate(&mut self, item: Accumulated) {
-        let Resources {
-            color,
-            store,
-            accumulation,
-            ..
-        } = self.resources;
+        let Resources { color, store, accumulation, .. } = self.resources;
         if item.reads_window() {
             self.work.push(Work::AccumulateRead(item));
             self.graph
@@ -234,8 +254,7 @@ impl Declaring {
         self.work.push(Work::Accumulate(item));
         let mut pass = self.graph.pass("accumulate", PassKind::Compute);
         if item.writes_window() {
-            pass.read(accumulation, Access::StorageReadCompute)
-                .write(store, Access::StorageWriteCompute);
+            pass.read(accumulation, Access::StorageReadCompute).write(store, Access::StorageWriteCompute);
         } else {
             pass.read_write(accumulation, Access::StorageWriteCompute);
         }
@@ -254,16 +273,10 @@ impl Declaring {
     fn read_back(&mut self, question: &Question) {
         self.work.push(Work::ReadBack);
         let source = match question {
-            Question::Window {
-                buffer: PixelBuffer::Color,
-                ..
-            } => self.resources.color,
+            Question::Window { buffer: PixelBuffer::Color, .. } => self.resources.color,
             Question::Window { .. } => self.resources.depth,
             Question::Texels { .. } => self.resources.textures,
         };
-        self.graph
-            .pass("read back", PassKind::Transfer)
-            .side_effect()
-            .read(source, Access::TransferSrc);
+        self.graph.pass("read back", PassKind::Transfer).side_effect().read(source, Access::TransferSrc);
     }
 }

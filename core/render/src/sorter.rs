@@ -30,6 +30,8 @@ pub(crate) struct Sorter {
     pixels: usize,
     /// The next drawing operation begins a step of its own, unless the last one has drawn nothing.
     is_split: bool,
+    /// The view that operations belong to.
+    view: Option<usize>,
 }
 
 impl Sorter {
@@ -80,7 +82,7 @@ impl Sorter {
         let (first_draw, first_pixels) = (self.draws, self.pixels);
         if let Some(Step::Raster(step)) = self.plan.steps.last_mut() {
             let is_idle = (step.first_draw, step.first_pixels) == (first_draw, first_pixels);
-            if !is_split || is_idle {
+            if (!is_split || is_idle) && step.view == self.view {
                 step.operations.end = operation + 1;
                 return;
             }
@@ -89,7 +91,13 @@ impl Sorter {
             operations: operation..operation + 1,
             first_draw,
             first_pixels,
+            view: self.view,
         }));
+    }
+
+    /// Operations belong to a view from here, or to none.
+    pub(crate) fn enter(&mut self, view: Option<usize>) {
+        self.view = view;
     }
 
     pub(crate) fn split(&mut self) {
@@ -125,13 +133,7 @@ impl Sorter {
     }
 
     /// Adds a copy from the window to a texture.
-    pub(crate) fn copy(
-        &mut self,
-        image: ImageKey,
-        region: Region,
-        source: vk::Rect2D,
-        from_depth: bool,
-    ) {
+    pub(crate) fn copy(&mut self, image: ImageKey, region: Region, source: vk::Rect2D, from_depth: bool) {
         self.used.insert(image);
         let texels = texel_count(&region);
         if !self.joins_batch(texels, from_depth) {
@@ -152,18 +154,12 @@ impl Sorter {
             return;
         };
         self.batch.insert((image, region), batch.items.len());
-        batch.items.push(CopyItem {
-            image,
-            region,
-            source,
-            first_texel: batch.texels,
-        });
+        batch.items.push(CopyItem { image, region, source, first_texel: batch.texels });
         batch.texels += texels;
     }
 
     fn joins_batch(&self, texels: usize, from_depth: bool) -> bool {
-        let (Some(Step::Copy(_)), Some(batch)) = (self.plan.steps.last(), self.plan.batches.last())
-        else {
+        let (Some(Step::Copy(_)), Some(batch)) = (self.plan.steps.last(), self.plan.batches.last()) else {
             return false;
         };
         batch.from_depth == from_depth && batch.texels + texels <= MOST_BATCH_TEXELS
@@ -171,22 +167,14 @@ impl Sorter {
 
     fn begin_batch(&mut self, from_depth: bool) {
         self.plan.steps.push(Step::Copy(self.plan.batches.len()));
-        self.plan.batches.push(CopyBatch {
-            from_depth,
-            ..CopyBatch::default()
-        });
+        self.plan.batches.push(CopyBatch { from_depth, ..CopyBatch::default() });
         self.overlaps.clear();
         self.batch.clear();
     }
 
     /// The plan, with the early transfers as its first step.
     pub(crate) fn finish(self, textures: &Textures) -> Plan {
-        let Self {
-            mut plan,
-            early,
-            filled,
-            ..
-        } = self;
+        let Self { mut plan, early, filled, .. } = self;
         for (image, clear) in &mut plan.defined {
             *clear = textures.get(*image).is_none_or(|texture| {
                 let is_filled = |level, layer| filled.contains(&(*image, level, layer));
@@ -210,22 +198,11 @@ mod tests {
     use super::*;
 
     fn region(x: u32) -> Region {
-        Region {
-            level: 0,
-            layer: 0,
-            offset: [x, 0, 0],
-            extent: [4, 4, 1],
-        }
+        Region { level: 0, layer: 0, offset: [x, 0, 0], extent: [4, 4, 1] }
     }
 
     fn source(x: i32) -> vk::Rect2D {
-        vk::Rect2D {
-            offset: vk::Offset2D { x, y: 0 },
-            extent: vk::Extent2D {
-                width: 4,
-                height: 4,
-            },
-        }
+        vk::Rect2D { offset: vk::Offset2D { x, y: 0 }, extent: vk::Extent2D { width: 4, height: 4 } }
     }
 
     #[test]

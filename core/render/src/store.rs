@@ -12,11 +12,7 @@ pub(crate) struct Store {
 
 impl Store {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            gpu: gpu.clone(),
-            buffer: None,
-            state: ResourceState::SETTLED,
-        }
+        Self { gpu: gpu.clone(), buffer: None, state: ResourceState::SETTLED }
     }
 
     /// Makes room for so many bytes. What the buffer held may be lost.

@@ -17,12 +17,14 @@ pub(crate) struct DrawCommand {
     pub(crate) first_index: u32,
     /// 0 if the draw is left out.
     pub(crate) index_count: u32,
+    /// Address of the first index.
+    pub(crate) indices: u64,
 }
 
 /// Memory of the last frame, used again.
 #[derive(Default)]
 pub(crate) struct Scratch {
-    draws: Vec<DrawRecord>,
+    pub(crate) draws: Vec<DrawRecord>,
     pub(crate) commands: Vec<DrawCommand>,
     residents: Vec<Resident>,
 }
@@ -94,11 +96,7 @@ impl Scratch {
         let stride = draw.layout.stride() as u64;
         let count = u64::from(draw.index_count);
         let (address, vertex_count, command) = match draw.source {
-            VertexSource::Arena {
-                first_word,
-                vertices: vertex_count,
-                first_index,
-            } => {
+            VertexSource::Arena { first_word, vertices: vertex_count, first_index } => {
                 let words = u64::from(first_word) + u64::from(vertex_count) * stride;
                 let indices = u64::from(first_index) + count;
                 if words > vertices.word_count || indices > vertices.index_count {
@@ -109,6 +107,7 @@ impl Scratch {
                     index_buffer: vertices.indices.buffer,
                     first_index: u32::try_from(first).ok()?,
                     index_count: draw.index_count,
+                    indices: vertices.indices.address + u64::from(first_index) * 4,
                 };
                 let address = vertices.words.address + u64::from(first_word) * 4;
                 (address, u64::from(vertex_count), command)
@@ -123,6 +122,7 @@ impl Scratch {
                     index_buffer: resident.index_buffer,
                     first_index: resident.first_index.checked_add(first_index)?,
                     index_count: draw.index_count,
+                    indices: resident.vertices + (u64::from(resident.words) + u64::from(first_index)) * 4,
                 };
                 (resident.vertices, vertex_count, command)
             }
@@ -144,11 +144,8 @@ struct Place {
     command: DrawCommand,
 }
 
-const LEFT_OUT: DrawCommand = DrawCommand {
-    index_buffer: vk::Buffer::null(),
-    first_index: 0,
-    index_count: 0,
-};
+const LEFT_OUT: DrawCommand =
+    DrawCommand { index_buffer: vk::Buffer::null(), first_index: 0, index_count: 0, indices: 0 };
 
 /// An index that is surely one of a table of which an empty one has an element of zeros.
 fn within<T>(index: u32, table: &[T]) -> u32 {
@@ -198,11 +195,7 @@ mod tests {
         };
         change(1, |draw| draw.index_count = u32::MAX);
         change(2, |draw| {
-            draw.source = VertexSource::Arena {
-                first_word: u32::MAX,
-                vertices: u32::MAX,
-                first_index: 0,
-            };
+            draw.source = VertexSource::Arena { first_word: u32::MAX, vertices: u32::MAX, first_index: 0 };
         });
         change(3, |draw| draw.fixed = 77);
         change(4, |draw| draw.source = VertexSource::Retained { range: 3, first_index: 0 });

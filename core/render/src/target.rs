@@ -22,10 +22,8 @@ pub(crate) struct DepthFormat {
 impl DepthFormat {
     /// The first format that the device can draw to; Vulkan promises that it has one of the two.
     pub(crate) fn of(gpu: &Gpu) -> Self {
-        let serves = |format| {
-            gpu.format_features(format)
-                .contains(vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT)
-        };
+        let serves =
+            |format| gpu.format_features(format).contains(vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT);
         let found = DEPTH_FORMATS.iter().find(|(format, _)| serves(*format));
         let (vulkan, graph) = *found.unwrap_or(&DEPTH_FORMATS[1]);
         Self { vulkan, graph }
@@ -57,18 +55,12 @@ impl Target {
         let common = vk::ImageUsageFlags::SAMPLED
             | vk::ImageUsageFlags::TRANSFER_SRC
             | vk::ImageUsageFlags::TRANSFER_DST;
-        let color_usage =
-            common | vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::STORAGE;
+        let color_usage = common | vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::STORAGE;
         let depth_usage = common | vk::ImageUsageFlags::DEPTH_STENCIL_ATTACHMENT;
         let target = Self {
             size,
             color: gpu.create_image(&ImageDesc::d2("color", COLOR_FORMAT, size, color_usage))?,
-            depth: gpu.create_image(&ImageDesc::d2(
-                "depth",
-                depth_format.vulkan,
-                size,
-                depth_usage,
-            ))?,
+            depth: gpu.create_image(&ImageDesc::d2("depth", depth_format.vulkan, size, depth_usage))?,
             depth_format,
             color_state: ResourceState::after(Access::TransferDst),
             depth_state: ResourceState::after(Access::TransferDst),
@@ -91,16 +83,10 @@ impl Target {
         let (none, write) = (base::Access::NONE, base::Access::TRANSFER_WRITE);
         commands.barriers(
             &[],
-            &[
-                image_barrier(&self.color, none, write),
-                image_barrier(&self.depth, none, write),
-            ],
+            &[image_barrier(&self.color, none, write), image_barrier(&self.depth, none, write)],
         );
         commands.clear_color(&self.color, [0.0; 4]);
-        let far = vk::ClearDepthStencilValue {
-            depth: 1.0,
-            stencil: 0,
-        };
+        let far = vk::ClearDepthStencilValue { depth: 1.0, stencil: 0 };
         // SAFETY: the image is this device's, in this layout, and may be copied to.
         unsafe {
             commands.device().cmd_clear_depth_stencil_image(
@@ -123,10 +109,7 @@ impl Target {
             let last = |image, state| image_barrier(image, crate::graph::last_use(state), read);
             commands.barriers(
                 &[base::memory_barrier(write, write)],
-                &[
-                    last(&self.color, self.color_state),
-                    last(&self.depth, self.depth_state),
-                ],
+                &[last(&self.color, self.color_state), last(&self.depth, self.depth_state)],
             );
             copy_corner(commands, &self.color, &new.color, extent);
             copy_corner(commands, &self.depth, &new.depth, extent);
@@ -147,11 +130,7 @@ fn copy_corner(commands: &base::Commands<'_>, from: &Image, to: &Image, [width, 
     let region = vk::ImageCopy::default()
         .src_subresource(layers)
         .dst_subresource(layers)
-        .extent(vk::Extent3D {
-            width,
-            height,
-            depth: 1,
-        });
+        .extent(vk::Extent3D { width, height, depth: 1 });
     // SAFETY: both images are this device's, in these layouts, and as large as the region.
     unsafe {
         commands.device().cmd_copy_image(

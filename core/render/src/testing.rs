@@ -3,22 +3,17 @@
 use std::sync::OnceLock;
 
 use afterglow_gl::frame::{
-    BaseFormat, Bindings, Clear, Compare, Cull, CurrentAttributes, Dimension, Draw, Environment,
-    FixedState, Format, Frame, ImageKey, ImageShape, ImageUpload, Operation, RasterState, Rect,
-    Region, Sampler, Slot, StateWords, TexelFormat, TextureBinding, Topology, Transform,
-    VertexLayout, VertexSource, Viewport, Wrap,
+    BaseFormat, Bindings, Clear, Compare, Cull, CurrentAttributes, Dimension, Draw, Environment, FixedState,
+    Format, Frame, ImageKey, ImageShape, ImageUpload, Operation, RasterState, Rect, Region, Sampler, Slot,
+    StateWords, TexelFormat, TextureBinding, Topology, Transform, VertexLayout, VertexSource, Viewport, Wrap,
 };
 use afterglow_gpu::{Gpu, GpuOptions};
 use bytemuck::Zeroable;
 
 use crate::{RenderOptions, Renderer};
 
-pub(crate) const IDENTITY: [[f32; 4]; 4] = [
-    [1.0, 0.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0, 0.0],
-    [0.0, 0.0, 1.0, 0.0],
-    [0.0, 0.0, 0.0, 1.0],
-];
+pub(crate) const IDENTITY: [[f32; 4]; 4] =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 pub(crate) const WHITE: [u8; 4] = [255; 4];
 pub(crate) const RED: [u8; 4] = [255, 0, 0, 255];
@@ -27,15 +22,13 @@ pub(crate) const BLUE: [u8; 4] = [0, 0, 255, 255];
 pub(crate) const BLACK: [u8; 4] = [0, 0, 0, 255];
 
 /// Positions of three floats and colours of four bytes.
-pub(crate) const POSITION_COLOR: VertexLayout = VertexLayout(0)
-    .with(Slot::Position as usize, Format::F3)
-    .with(Slot::Color as usize, Format::Unorm8x4);
+pub(crate) const POSITION_COLOR: VertexLayout =
+    VertexLayout(0).with(Slot::Position as usize, Format::F3).with(Slot::Color as usize, Format::Unorm8x4);
 
 /// The device of all tests.
 pub(crate) fn gpu() -> Gpu {
     static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(|| Gpu::new(&GpuOptions::for_tests()).unwrap())
-        .clone()
+    GPU.get_or_init(|| Gpu::new(&GpuOptions::for_tests()).unwrap()).clone()
 }
 
 /// A renderer on the device of all tests.
@@ -101,21 +94,10 @@ pub(crate) struct FrameBuilder {
 impl FrameBuilder {
     pub(crate) fn new(width: u32, height: u32) -> Self {
         Self {
-            frame: Frame {
-                size: (width, height),
-                ..Frame::default()
-            },
-            fixed: FixedState {
-                words: words(),
-                raster: raster(),
-            },
+            frame: Frame { size: (width, height), ..Frame::default() },
+            fixed: FixedState { words: words(), raster: raster() },
             viewport: Viewport {
-                rect: Rect {
-                    x: 0,
-                    y: 0,
-                    width: width as i32,
-                    height: height as i32,
-                },
+                rect: Rect { x: 0, y: 0, width: width as i32, height: height as i32 },
                 depth_range: [0.0, 1.0],
                 scissor: None,
             },
@@ -191,10 +173,7 @@ impl FrameBuilder {
 
     /// The state that is set, as numbers of the frame's tables.
     pub(crate) fn state(&mut self) -> Draw {
-        let source = VertexSource::Retained {
-            range: 0,
-            first_index: 0,
-        };
+        let source = VertexSource::Retained { range: 0, first_index: 0 };
         self.draw_of(VertexLayout::default(), Topology::Triangles, source)
     }
 
@@ -213,10 +192,7 @@ impl FrameBuilder {
         };
         self.frame.words.extend(words);
         self.frame.indices.extend(indices);
-        let draw = Draw {
-            index_count: indices.len() as u32,
-            ..self.draw_of(layout, topology, source)
-        };
+        let draw = Draw { index_count: indices.len() as u32, ..self.draw_of(layout, topology, source) };
         self.push(Operation::Draw(draw))
     }
 
@@ -270,12 +246,8 @@ impl FrameBuilder {
             .with(Slot::Position as usize, Format::F2)
             .with(Slot::Texture0 as usize, Format::F2);
         let [s, t] = most;
-        let corners: [[f32; 4]; 4] = [
-            [-1.0, -1.0, 0.0, 0.0],
-            [1.0, -1.0, s, 0.0],
-            [1.0, 1.0, s, t],
-            [-1.0, 1.0, 0.0, t],
-        ];
+        let corners: [[f32; 4]; 4] =
+            [[-1.0, -1.0, 0.0, 0.0], [1.0, -1.0, s, 0.0], [1.0, 1.0, s, t], [-1.0, 1.0, 0.0, t]];
         let words = corners.concat();
         let words: Vec<_> = words.iter().map(|value| value.to_bits()).collect();
         self.draw(layout, Topology::Triangles, &words, &[0, 1, 2, 0, 2, 3])
@@ -290,17 +262,8 @@ impl FrameBuilder {
         texels: &[[u8; 4]],
     ) -> ImageKey {
         let image = self.define([width, height], base_format);
-        let region = Region {
-            level: 0,
-            layer: 0,
-            offset: [0; 3],
-            extent: [width, height, 1],
-        };
-        self.push(Operation::Upload(ImageUpload {
-            image,
-            region,
-            texels: texels.concat().into(),
-        }));
+        let region = Region { level: 0, layer: 0, offset: [0; 3], extent: [width, height, 1] };
+        self.push(Operation::Upload(ImageUpload { image, region, texels: texels.concat().into() }));
         self.bind(unit, image, base_format, nearest());
         image
     }
@@ -314,11 +277,7 @@ impl FrameBuilder {
             height,
             depth: 1,
             levels: 1,
-            format: if base_format == BaseFormat::Depth {
-                TexelFormat::Depth32
-            } else {
-                TexelFormat::Rgba8
-            },
+            format: if base_format == BaseFormat::Depth { TexelFormat::Depth32 } else { TexelFormat::Rgba8 },
             base_format,
         };
         self.push(Operation::DefineImage { image, shape });
@@ -363,10 +322,7 @@ impl Picture {
         }
         let bytes = renderer.read_color().unwrap();
         assert_valid();
-        Self {
-            size: renderer.size(),
-            bytes,
-        }
+        Self { size: renderer.size(), bytes }
     }
 
     /// The colour of a pixel, counted from the lower left corner.

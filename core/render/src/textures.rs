@@ -34,11 +34,7 @@ pub(crate) struct Textures {
 impl Textures {
     pub(crate) fn new(gpu: &Gpu, table: &BindlessTable) -> Result<Self, GpuError> {
         let missing = |dimension| create(gpu, table, &missing_shape(dimension));
-        let missing = [
-            missing(Dimension::D2)?,
-            missing(Dimension::D3)?,
-            missing(Dimension::Cube)?,
-        ];
+        let missing = [missing(Dimension::D2)?, missing(Dimension::D3)?, missing(Dimension::Cube)?];
         gpu.submit(|commands| {
             for texture in &missing {
                 commands.image_barrier(&texture.image, Access::NONE, Access::TRANSFER_WRITE);
@@ -47,11 +43,7 @@ impl Textures {
                 commands.image_barrier(&texture.image, Access::TRANSFER_WRITE, general);
             }
         })?;
-        Ok(Self {
-            gpu: gpu.clone(),
-            images: HashMap::new(),
-            _missing: missing,
-        })
+        Ok(Self { gpu: gpu.clone(), images: HashMap::new(), _missing: missing })
     }
 
     /// Makes an image, its contents and layout undefined. Says whether the device could; what needs an image that
@@ -123,11 +115,7 @@ impl Texture {
             buffer_image_height: 0,
             image_subresource: self.subresource(region.level, region.layer),
             image_offset: vk::Offset3D { x, y, z },
-            image_extent: vk::Extent3D {
-                width,
-                height,
-                depth,
-            },
+            image_extent: vk::Extent3D { width, height, depth },
         }
     }
 
@@ -159,9 +147,7 @@ pub(crate) fn holds(shape: &ImageShape, region: &Region) -> bool {
         && region.extent.iter().all(|&length| length > 0)
         && std::iter::zip(region.offset, region.extent)
             .zip(level_extent(shape, region.level))
-            .all(|((offset, length), limit)| {
-                offset.checked_add(length).is_some_and(|end| end <= limit)
-            })
+            .all(|((offset, length), limit)| offset.checked_add(length).is_some_and(|end| end <= limit))
 }
 
 /// Texels of a region.
@@ -183,24 +169,16 @@ fn missing_shape(dimension: Dimension) -> ImageShape {
 
 fn create(gpu: &Gpu, table: &BindlessTable, shape: &ImageShape) -> Result<Texture, GpuError> {
     let image = gpu.create_image(&image_desc(shape))?;
-    let view = afterglow_gpu::ViewDesc {
-        swizzle: expansion(shape.base_format),
-        ..image.whole_view()
-    };
+    let view = afterglow_gpu::ViewDesc { swizzle: expansion(shape.base_format), ..image.whole_view() };
     let view = image.view_of(&view)?;
     let kind = bindless_kind(shape.dimension);
     let index = table.add_image(kind, view, vk::ImageLayout::GENERAL)?;
-    Ok(Texture {
-        image,
-        shape: *shape,
-        index,
-    })
+    Ok(Texture { image, shape: *shape, index })
 }
 
 fn image_desc(shape: &ImageShape) -> ImageDesc<'static> {
-    let usage = vk::ImageUsageFlags::SAMPLED
-        | vk::ImageUsageFlags::TRANSFER_SRC
-        | vk::ImageUsageFlags::TRANSFER_DST;
+    let usage =
+        vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST;
     let format = match shape.format {
         TexelFormat::Rgba8 => vk::Format::R8G8B8A8_UNORM,
         TexelFormat::Depth32 => DEPTH_TEXEL_FORMAT,
@@ -268,10 +246,7 @@ mod tests {
         let gpu = gpu();
         let table = gpu.create_bindless_table(BindlessSizes::default()).unwrap();
         let mut textures = Textures::new(&gpu, &table).unwrap();
-        let shape = ImageShape {
-            width: 1 << 30,
-            ..missing_shape(Dimension::D2)
-        };
+        let shape = ImageShape { width: 1 << 30, ..missing_shape(Dimension::D2) };
         let key = ImageKey::unique();
         assert!(!textures.define(&table, key, &shape).unwrap());
         assert!(textures.get(key).is_none());
@@ -282,21 +257,11 @@ mod tests {
         let gpu = gpu();
         let table = gpu.create_bindless_table(BindlessSizes::default()).unwrap();
         let mut textures = Textures::new(&gpu, &table).unwrap();
-        let shape = ImageShape {
-            width: 8,
-            height: 4,
-            levels: 3,
-            ..missing_shape(Dimension::D2)
-        };
+        let shape = ImageShape { width: 8, height: 4, levels: 3, ..missing_shape(Dimension::D2) };
         let key = ImageKey::unique();
         assert!(textures.define(&table, key, &shape).unwrap());
         let texture = textures.get(key).unwrap();
-        let region = |level, offset, extent| Region {
-            level,
-            layer: 0,
-            offset,
-            extent,
-        };
+        let region = |level, offset, extent| Region { level, layer: 0, offset, extent };
         assert!(texture.is_whole(&region(1, [0; 3], [4, 2, 1])));
         assert!(texture.holds(&region(0, [7, 3, 0], [1, 1, 1])));
         assert!(!texture.holds(&region(1, [4, 0, 0], [1, 1, 1])));

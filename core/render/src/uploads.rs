@@ -34,11 +34,7 @@ pub(crate) struct UploadArena {
 
 impl UploadArena {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            gpu: gpu.clone(),
-            chunks: Vec::new(),
-            bytes: 0,
-        }
+        Self { gpu: gpu.clone(), chunks: Vec::new(), bytes: 0 }
     }
 
     /// Forgets everything. The device must have finished with it.
@@ -68,11 +64,7 @@ impl UploadArena {
         chunk.buffer.write(offset, bytes)?;
         chunk.used = (offset + size).next_multiple_of(ALIGNMENT);
         self.bytes += size;
-        Ok(Upload {
-            buffer: chunk.buffer.raw(),
-            offset,
-            address: chunk.buffer.address() + offset,
-        })
+        Ok(Upload { buffer: chunk.buffer.raw(), offset, address: chunk.buffer.address() + offset })
     }
 
     /// As [`push`](Self::push), for a table. An empty one gets one element of zeros, so that there is always an
@@ -88,11 +80,7 @@ impl UploadArena {
     fn add_chunk(&mut self, size: u64) -> Result<usize, GpuError> {
         let desc = BufferDesc::new("uploads", BufferKind::Upload, size.max(CHUNK_BYTES))
             .usage(vk::BufferUsageFlags::INDEX_BUFFER);
-        self.chunks.push(Chunk {
-            buffer: self.gpu.create_buffer(&desc)?,
-            used: 0,
-            idle_frames: 0,
-        });
+        self.chunks.push(Chunk { buffer: self.gpu.create_buffer(&desc)?, used: 0, idle_frames: 0 });
         Ok(self.chunks.len() - 1)
     }
 }

@@ -14,41 +14,26 @@ pub(crate) fn clip(rect: &Rect, [width, height]: [u32; 2]) -> Option<Rect> {
     };
     let (x, width) = span(rect.x, rect.width, width)?;
     let (y, height) = span(rect.y, rect.height, height)?;
-    Some(Rect {
-        x,
-        y,
-        width,
-        height,
-    })
+    Some(Rect { x, y, width, height })
 }
 
 /// A rectangle that was clipped to the window, with its upper left corner counted from the top.
 pub(crate) fn from_top(clipped: &Rect, [_, height]: [u32; 2]) -> vk::Rect2D {
     vk::Rect2D {
-        offset: vk::Offset2D {
-            x: clipped.x,
-            y: height as i32 - clipped.y - clipped.height,
-        },
-        extent: vk::Extent2D {
-            width: clipped.width as u32,
-            height: clipped.height as u32,
-        },
+        offset: vk::Offset2D { x: clipped.x, y: height as i32 - clipped.y - clipped.height },
+        extent: vk::Extent2D { width: clipped.width as u32, height: clipped.height as u32 },
     }
 }
 
 /// All of a window.
 pub(crate) fn whole([width, height]: [u32; 2]) -> vk::Rect2D {
-    vk::Rect2D {
-        offset: vk::Offset2D::default(),
-        extent: vk::Extent2D { width, height },
-    }
+    vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } }
 }
 
 /// Whether a scissor leaves all of the window.
 pub(crate) fn covers(scissor: Option<&Rect>, size: [u32; 2]) -> bool {
     scissor.is_none_or(|scissor| {
-        clip(scissor, size)
-            .is_some_and(|clipped| [clipped.width as u32, clipped.height as u32] == size)
+        clip(scissor, size).is_some_and(|clipped| [clipped.width as u32, clipped.height as u32] == size)
     })
 }
 
@@ -86,17 +71,17 @@ pub(crate) fn viewport(
     is_usable.then_some(result)
 }
 
+/// The viewport for lines and points: 1/256 pixel lower. Lines that run exactly between two rows of pixels are
+/// common (interfaces drawn at whole coordinates), and OpenGL, whose y goes up, gives them to the lower row where
+/// Vulkan would give them to the upper.
+pub(crate) fn for_thin(viewport: vk::Viewport) -> vk::Viewport {
+    vk::Viewport { y: viewport.y + 1.0 / 256.0, ..viewport }
+}
+
 /// The viewport in which window coordinates are drawn, with depth as it is.
 pub(crate) fn window_viewport(size: [u32; 2]) -> vk::Viewport {
     let [width, height] = size.map(|side| side as f32);
-    vk::Viewport {
-        x: 0.0,
-        y: height,
-        width,
-        height: -height,
-        min_depth: 0.0,
-        max_depth: 1.0,
-    }
+    vk::Viewport { x: 0.0, y: height, width, height: -height, min_depth: 0.0, max_depth: 1.0 }
 }
 
 /// The part of a copy to a texture whose source lies in the window: where it goes, and from where.
@@ -114,11 +99,7 @@ pub(crate) fn clip_copy(copy: &ImageCopy, size: [u32; 2]) -> Option<(Region, vk:
     };
     let [_, _, z] = copy.region.offset;
     let region = Region {
-        offset: [
-            moved(0, source.x, clipped.x)?,
-            moved(1, source.y, clipped.y)?,
-            z,
-        ],
+        offset: [moved(0, source.x, clipped.x)?, moved(1, source.y, clipped.y)?, z],
         extent: [clipped.width as u32, clipped.height as u32, 1],
         ..copy.region
     };
@@ -131,12 +112,7 @@ mod tests {
     use afterglow_gl::frame::{BaseFormat, ImageKey};
 
     fn rect(x: i32, y: i32, width: i32, height: i32) -> Rect {
-        Rect {
-            x,
-            y,
-            width,
-            height,
-        }
+        Rect { x, y, width, height }
     }
 
     #[test]
@@ -157,12 +133,7 @@ mod tests {
     fn a_copy_loses_what_lies_outside_the_window() {
         let copy = ImageCopy {
             image: ImageKey::unique(),
-            region: Region {
-                level: 0,
-                layer: 0,
-                offset: [1, 1, 0],
-                extent: [4, 4, 1],
-            },
+            region: Region { level: 0, layer: 0, offset: [1, 1, 0], extent: [4, 4, 1] },
             source: rect(-1, 6, 4, 4),
             base_format: BaseFormat::Rgb,
         };

@@ -43,7 +43,7 @@ impl Backend for Understanding {
         }
         let start = Instant::now();
         let scene = self.recovery.understand(&frame);
-        report.time += start.elapsed();
+        report.times.push(start.elapsed());
         report.add(&frame, scene);
     }
 
@@ -61,7 +61,7 @@ struct Report {
     continued: u32,
     with_camera: u32,
     baked: u32,
-    time: Duration,
+    times: Vec<Duration>,
     by_reason: BTreeMap<(String, &'static str), Sum>,
     last: Scene,
 }
@@ -92,13 +92,15 @@ impl Report {
 
     fn print(&self) {
         let frames = f64::from(self.frames.max(1));
+        let mut times = self.times.clone();
+        times.sort();
         println!(
-            "{} frames ({} with a camera, {} baked), {} handed over early, {:.3} ms a frame",
+            "{} frames ({} with a camera, {} baked), {} handed over early, median {:.3} ms a frame",
             self.frames,
             self.with_camera,
             self.baked,
             self.continued,
-            self.time.as_secs_f64() * 1e3 / frames
+            times.get(times.len() / 2).map_or(0.0, |t| t.as_secs_f64() * 1e3)
         );
         println!("{:>12} {:>9}  of them baked   (means a frame)", "triangles", "draws");
         for ((class, reason), sum) in &self.by_reason {
@@ -122,12 +124,12 @@ fn print_draws(frame: &Frame, scene: &Scene) {
         println!("view {:.4}\nprojection {:.4}", camera.view, camera.projection);
     }
     for ((_, draw), verdict) in frame.draws().zip(&scene.verdicts) {
-        let Verdict { operation, class, reason, model, baked, triangles } = verdict;
+        let Verdict { operation, class, reason, model, baked, triangles, base } = verdict;
         let fixed = &frame.fixed[draw.fixed as usize];
         let raster = fixed.raster;
         let units = fixed.words.units.iter().filter(|unit| unit.target() != 0).count();
         println!(
-            "{operation:5} {class:?} ({reason}) {triangles} triangles, units {units}, lit {}, baked {baked}, \
+            "{operation:5} {class:?} ({reason}) {triangles} triangles, units {units}, lit {}, baked {baked}, base {base:?}, \
              depth {:?}, blend {:?}, alpha {}, viewport {:?}, model at {:.3}",
             fixed.words.global.lighting(),
             raster.depth.map(|d| (d.compare, d.write)),

@@ -1,58 +1,83 @@
 //! The class of each draw of a frame, by its state and by what the world of the frame is.
 
-use afterglow_gl::frame::{Frame, StencilOp, Topology};
-use glam::{DMat3, DMat4, DVec3};
+use afterglow_gl::frame::{CombineFunction, EnvMode, Format, Frame, Slot, StencilOp, Topology, UnitWords};
+use glam::{DMat3, DMat4, DVec3, Mat4};
 
 use crate::draws::{DepthUse, DrawFacts, TransformFacts};
-use crate::geometry::{ContentCache, Surfaces};
+use crate::geometry::{has_varying_colors, mean_color};
 use crate::matrix;
 use crate::opacity::Mixing;
+use crate::surfaces::Surfaces;
 use crate::types::{Class, Verdict};
+use crate::views::Views;
 use crate::world::{Stage, World};
 
 /// Class and reason.
 type Finding = (Class, &'static str);
 
 /// Classifies the draws of one frame in order.
-pub struct Classifier<'a> {
+struct Classifier<'a> {
     frame: &'a Frame,
     transforms: &'a [TransformFacts],
+    views: &'a Views,
     world: &'a World,
     world_from_eye: DMat4,
-    cache: &'a mut ContentCache,
     surfaces: Surfaces,
+    /// Operation of the surface that the draw at hand was found to be a layer of.
+    base: Option<u32>,
+}
+
+/// The verdicts on all draws of a frame, in order.
+pub fn classify<'a>(
+    frame: &'a Frame,
+    transforms: &'a [TransformFacts],
+    views: &'a Views,
+    world: &'a World,
+    draws: &'a [DrawFacts<'a>],
+) -> Vec<Verdict> {
+    let candidates = draws
+        .iter()
+        .filter(|d| d.place.view == world.view && d.operation > world.first && may_be_layer(d))
+        .map(|d| (d, transforms[d.transform].modelview_hash));
+    let surfaces = Surfaces::awaiting(candidates);
+    let world_from_eye = matrix::rigid_inverse(world.view_rigid);
+    let mut classifier = Classifier { frame, transforms, views, world, world_from_eye, surfaces, base: None };
+    let mut verdicts: Vec<Verdict> = draws.iter().map(|facts| classifier.verdict(facts)).collect();
+    bake_below_lightmaps(frame, draws, &mut verdicts);
+    verdicts
+}
+
+fn may_be_layer(facts: &DrawFacts) -> bool {
+    facts.triangles > 0 && matches!(facts.depth, DepthUse::Test | DepthUse::Equal)
+}
+
+/// An unlit surface that a layer multiplies shows baked light.
+fn bake_below_lightmaps(frame: &Frame, draws: &[DrawFacts], verdicts: &mut [Verdict]) {
+    for i in 0..verdicts.len() {
+        let Some(base) = verdicts[i].base.filter(|_| draws[i].mixing == Mixing::Multiply) else { continue };
+        if let Ok(below) = draws.binary_search_by_key(&base, |facts| facts.operation) {
+            let words = &frame.fixed[draws[below].draw.fixed as usize].words;
+            verdicts[below].baked |= words.global.lighting() == 0;
+        }
+    }
 }
 
 impl<'a> Classifier<'a> {
-    /// A classifier that has seen nothing yet.
-    pub fn new(
-        frame: &'a Frame,
-        transforms: &'a [TransformFacts],
-        world: &'a World,
-        cache: &'a mut ContentCache,
-    ) -> Classifier<'a> {
-        let world_from_eye = matrix::rigid_inverse(world.view_rigid);
-        Classifier { frame, transforms, world, world_from_eye, cache, surfaces: Surfaces::default() }
-    }
-
-    /// The verdict on the next draw.
-    pub fn verdict(&mut self, facts: &DrawFacts) -> Verdict {
+    fn verdict(&mut self, facts: &DrawFacts) -> Verdict {
+        let modelview = self.transform(facts).modelview_hash;
+        self.base = None;
         let (class, reason) = self.find(facts);
-        let model = match class.is_traced() {
-            true => self.model(facts),
-            false => DMat4::IDENTITY,
-        };
         if class.is_traced() {
-            let positions = self.cache.positions(self.frame, facts.draw);
-            self.surfaces.add(facts.draw, positions, self.transform(facts).modelview_hash);
+            self.surfaces.add(self.frame, facts, modelview);
         }
         Verdict {
             operation: facts.operation,
             class,
             reason,
-            model: model.as_mat4(),
+            model: if class.is_traced() { self.model(facts).as_mat4() } else { Mat4::IDENTITY },
             baked: class.is_traced() && self.is_baked(facts),
             triangles: facts.triangles,
+            base: self.base,
         }
     }
 
@@ -84,6 +109,7 @@ impl<'a> Classifier<'a> {
             .or_else(|| self.without_color(facts))
             .or_else(|| self.not_in_perspective(facts))
             .or_else(|| self.points_and_lines(facts))
+            .or_else(|| self.unsound(facts))
             .or_else(|| self.flattened(facts))
             .or_else(|| self.mirrored(facts))
             .or_else(|| self.behind_all(facts))
@@ -107,6 +133,7 @@ impl<'a> Classifier<'a> {
         }
         let perspective = self.transform(facts).perspective.is_some();
         Some(match perspective && facts.depth != DepthUse::Off {
+            _ if self.views.views[facts.place.view].erased => (Class::OtherView, "erased later"),
             true => (Class::OtherView, "another viewport"),
             false if self.is_early(facts) => (Class::OtherView, "another viewport, flat"),
             false => (Class::Interface, "another viewport, flat"),
@@ -120,10 +147,7 @@ impl<'a> Classifier<'a> {
         let raster = &self.frame.fixed[facts.draw.fixed as usize].raster;
         let counts = |op| {
             use StencilOp as S;
-            matches!(
-                op,
-                S::Increment | S::Decrement | S::IncrementWrap | S::DecrementWrap | S::Invert
-            )
+            matches!(op, S::Increment | S::Decrement | S::IncrementWrap | S::DecrementWrap | S::Invert)
         };
         let is_volume = raster.stencil.is_some_and(|s| counts(s.depth_fail) || counts(s.pass))
             && matches!(facts.depth, DepthUse::Test)
@@ -161,19 +185,28 @@ impl<'a> Classifier<'a> {
         matches!(facts.depth, DepthUse::TestWrite | DepthUse::Fill)
     }
 
+    fn unsound(&self, facts: &DrawFacts) -> Option<Finding> {
+        let is_unsound = !self.transform(facts).sound;
+        is_unsound.then_some((Class::Undecided, "matrix out of range"))
+    }
+
+    /// Things drawn dark and flat onto a plane.
     fn flattened(&self, facts: &DrawFacts) -> Option<Finding> {
-        let flat = self.transform(facts).flattening && facts.mixing != Mixing::Opaque;
-        flat.then_some((Class::Dropped, "planar shadow"))
+        let words = &self.frame.fixed[facts.draw.fixed as usize].words;
+        let darkens = matches!(facts.mixing, Mixing::Blend | Mixing::Multiply | Mixing::Opaque)
+            && words.units.iter().all(|unit| unit.target() == 0)
+            && words.global.lighting() == 0
+            && mean_color(self.frame, facts.draw).truncate().max_element() < 0.3;
+        let is_shadow = self.transform(facts).flattening && darkens;
+        is_shadow.then_some((Class::Dropped, "planar shadow"))
     }
 
     /// The world again under a reflection: seen where a plane or the stencil lets it be.
     fn mirrored(&self, facts: &DrawFacts) -> Option<Finding> {
         let determinant = |m: DMat4| DMat3::from_mat4(m).determinant();
-        let fixed = &self.frame.fixed[facts.draw.fixed as usize];
-        let is_masked = fixed.words.global.clip_planes() != 0 || fixed.raster.stencil.is_some();
         let modelview = self.transform(facts).modelview;
         let is_mirrored = determinant(modelview) * determinant(self.world.modelview) < 0.0;
-        (is_masked && is_mirrored).then_some((Class::OtherView, "mirrored"))
+        (facts.masked && is_mirrored).then_some((Class::OtherView, "mirrored"))
     }
 
     fn behind_all(&self, facts: &DrawFacts) -> Option<Finding> {
@@ -222,24 +255,30 @@ impl<'a> Classifier<'a> {
     }
 
     fn drawn_again(&mut self, facts: &DrawFacts) -> Option<Finding> {
-        let is_plain = facts.mixing == Mixing::Opaque;
-        if facts.depth == DepthUse::TestWrite || (is_plain && facts.depth != DepthUse::Equal) {
+        if !may_be_layer(facts) {
             return None;
         }
-        let transform = self.transform(facts).modelview_hash;
-        let positions = self.cache.positions(self.frame, facts.draw);
-        let again = self.surfaces.has_draw(positions, transform)
-            || ((facts.mixing == Mixing::Multiply || facts.depth == DepthUse::Equal)
-                && self.surfaces.has_triangles(self.frame, facts.draw, transform));
-        again.then_some(match facts.mixing {
+        let (modelview, mixing) = (self.transform(facts).modelview_hash, facts.mixing);
+        // Stains (with polygon offset) lie on surfaces, but are made of triangles of their own.
+        let in_other_batches =
+            facts.depth == DepthUse::Equal || (mixing == Mixing::Multiply && !self.is_biased(facts));
+        self.base = self.surfaces.same(self.frame, facts.draw, modelview);
+        let again = self.base.is_some()
+            || (in_other_batches && self.surfaces.has_triangles(self.frame, facts.draw, modelview));
+        again.then_some(match mixing {
             Mixing::Multiply => (Class::Layer, "multiplies a surface drawn before"),
             Mixing::Add => (Class::Layer, "adds to a surface drawn before"),
-            _ => (Class::Layer, "blends over a surface drawn before"),
+            Mixing::Opaque => (Class::Layer, "replaces a surface drawn before"),
+            Mixing::CutOut | Mixing::Blend => (Class::Layer, "blends over a surface drawn before"),
         })
     }
 
+    fn is_biased(&self, facts: &DrawFacts) -> bool {
+        self.frame.fixed[facts.draw.fixed as usize].raster.depth_bias.is_some()
+    }
+
     fn blended(&self, facts: &DrawFacts) -> Option<Finding> {
-        let is_biased = self.frame.fixed[facts.draw.fixed as usize].raster.depth_bias.is_some();
+        let is_biased = self.is_biased(facts);
         Some(match facts.mixing {
             Mixing::Opaque | Mixing::CutOut if facts.depth == DepthUse::TestWrite => return None,
             _ if facts.depth == DepthUse::Equal => (Class::Undecided, "equal depth"),
@@ -281,18 +320,26 @@ impl<'a> Classifier<'a> {
     fn is_near(&self, facts: &DrawFacts) -> bool {
         let reach = 0.2 * self.world.extent;
         let eye = self.transform(facts).perspective.map_or(DMat4::IDENTITY, |p| p.view);
-        facts
-            .eye_samples(self.frame, self.transforms, 16)
-            .all(|p| eye.transform_point3(p).length() < reach)
+        facts.eye_samples(self.frame, self.transforms, 16).all(|p| eye.transform_point3(p).length() < reach)
     }
 
-    /// Whether a draw's colours are light that the program computed beforehand.
+    /// Whether a draw's colours are light that the program computed beforehand: unlit, and either a
+    /// texture with coordinates of its own multiplies another one, or the vertices differ in colour.
     fn is_baked(&self, facts: &DrawFacts) -> bool {
         let words = &self.frame.fixed[facts.draw.fixed as usize].words;
         if words.global.lighting() != 0 {
             return false;
         }
-        let units = words.units.iter().filter(|unit| unit.target() != 0 && unit.gen_s() == 0).count();
-        units >= 2 || facts.colors.varying
+        let has_coordinates =
+            |unit: usize| facts.draw.layout.format(Slot::Texture0 as usize + unit) != Format::Absent;
+        let modulates = |words: &UnitWords| {
+            words.env_mode() == EnvMode::Modulate as u32
+                || (words.env_mode() == EnvMode::Combine as u32
+                    && words.combine_rgb() == CombineFunction::Modulate as u32)
+        };
+        let mut textures = words.units.iter().enumerate().filter(|(_, unit)| unit.target() != 0);
+        let has_lightmap = textures.next().is_some()
+            && textures.any(|(i, unit)| unit.gen_s() == 0 && has_coordinates(i) && modulates(unit));
+        has_lightmap || has_varying_colors(self.frame, facts.draw)
     }
 }

@@ -1,10 +1,10 @@
 //! Facts on each draw, from its state alone: what it can be part of before anything is known of the scene.
 
-use afterglow_gl::frame::{Compare, Draw, Frame, Topology};
+use afterglow_gl::frame::{Compare, Draw, FixedState, Frame, Topology, Transform};
 use glam::{DMat4, DVec3};
 use hashbrown::HashMap;
 
-use crate::geometry::{Colors, ContentCache, sample_positions};
+use crate::geometry::{ContentCache, sample_positions};
 use crate::images::Images;
 use crate::matrix::{self, Perspective};
 use crate::opacity::{Mixing, mixing};
@@ -38,6 +38,8 @@ pub struct TransformFacts {
     pub perspective: Option<Perspective>,
     /// MODELVIEW makes things flat.
     pub flattening: bool,
+    /// MODELVIEW holds sound numbers.
+    pub sound: bool,
 }
 
 /// What a draw's state says of it.
@@ -55,10 +57,10 @@ pub struct DrawFacts<'a> {
     pub depth: DepthUse,
     /// What blending amounts to.
     pub mixing: Mixing,
-    /// Vertex colours.
-    pub colors: Colors,
     /// Writes any of red, green, blue.
     pub writes_color: bool,
+    /// A clip plane or the stencil lets only part of it be seen.
+    pub masked: bool,
     /// Near and far of glDepthRange.
     pub depth_range: [f32; 2],
     /// Index into the table of [`TransformFacts`].
@@ -75,6 +77,7 @@ impl DrawFacts<'_> {
             && matches!(self.mixing, Mixing::Opaque | Mixing::CutOut)
             && transforms[self.transform].perspective.is_some()
             && !transforms[self.transform].flattening
+            && transforms[self.transform].sound
     }
 
     /// Positions spread over the draw, in the space after MODELVIEW.
@@ -93,23 +96,38 @@ impl DrawFacts<'_> {
 
 /// Facts on all distinct transforms of a frame, in the order of its table.
 pub fn transforms(frame: &Frame) -> Vec<TransformFacts> {
-    let hasher = xxhash_rust::xxh3::xxh3_64;
     let mut perspectives: HashMap<u64, Option<Perspective>> = HashMap::new();
-    let facts = frame.transforms.iter().map(|transform| {
-        let modelview = matrix::from_columns(&transform.modelview);
-        let projection_hash = hasher(bytemuck::bytes_of(&matrix::bits(&transform.projection)));
-        let perspective = *perspectives.entry(projection_hash).or_insert_with(|| {
-            matrix::factor_perspective(matrix::from_columns(&transform.projection))
-        });
-        TransformFacts {
-            modelview,
-            modelview_hash: hasher(bytemuck::bytes_of(&matrix::bits(&transform.modelview))),
-            projection_hash,
-            perspective,
-            flattening: matrix::is_flattening(modelview),
-        }
-    });
-    facts.collect()
+    let mut facts: Vec<TransformFacts> = Vec::with_capacity(frame.transforms.len());
+    for (i, transform) in frame.transforms.iter().enumerate() {
+        // Programs set the same matrix again and again.
+        let again = i > 0 && bytemuck::bytes_of(&frame.transforms[i - 1]) == bytemuck::bytes_of(transform);
+        let new = match facts.last() {
+            Some(last) if again => last.clone(),
+            _ => transform_facts(transform, &mut perspectives),
+        };
+        facts.push(new);
+    }
+    facts
+}
+
+fn transform_facts(
+    transform: &Transform,
+    perspectives: &mut HashMap<u64, Option<Perspective>>,
+) -> TransformFacts {
+    let hash = |columns| xxhash_rust::xxh3::xxh3_64(bytemuck::bytes_of(&matrix::bits(columns)));
+    let modelview = matrix::from_columns(&transform.modelview);
+    let projection_hash = hash(&transform.projection);
+    let perspective = *perspectives
+        .entry(projection_hash)
+        .or_insert_with(|| matrix::factor_perspective(matrix::from_columns(&transform.projection)));
+    TransformFacts {
+        modelview,
+        modelview_hash: hash(&transform.modelview),
+        projection_hash,
+        perspective,
+        flattening: matrix::is_flattening(modelview),
+        sound: matrix::is_sound(modelview),
+    }
 }
 
 /// Facts on all draws of a frame.
@@ -121,8 +139,7 @@ pub fn draws<'a>(
 ) -> Vec<DrawFacts<'a>> {
     let placed = frame.draws().zip(&views.places);
     let facts = placed.map(|((operation, draw), &place)| {
-        let raster = &frame.fixed[draw.fixed as usize].raster;
-        let colors = cache.colors(frame, draw);
+        let FixedState { words, raster } = &frame.fixed[draw.fixed as usize];
         let is_triangles = draw.topology == Topology::Triangles;
         DrawFacts {
             operation: operation as u32,
@@ -130,9 +147,9 @@ pub fn draws<'a>(
             place,
             triangles: if is_triangles { draw.index_count / 3 } else { 0 },
             depth: depth_use(raster.depth),
-            mixing: mixing(frame, draw, colors, images),
-            colors,
+            mixing: mixing(frame, draw, images, cache),
             writes_color: raster.color_mask & 7 != 0,
+            masked: words.global.clip_planes() != 0 || raster.stencil.is_some(),
             depth_range: frame.viewports[draw.viewport as usize].depth_range,
             transform: draw.transform as usize,
         }

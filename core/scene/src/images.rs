@@ -3,7 +3,7 @@
 use afterglow_gl::frame::{
     BaseFormat, Frame, ImageKey, ImageShape, ImageUpload, Operation, Region, TexelFormat,
 };
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 use hashbrown::HashMap;
 
 /// Texels that a mean colour is taken from, at most.
@@ -16,7 +16,7 @@ pub struct ImageFacts {
     texels: u64,
     clear: u64,
     partial: u64,
-    mean: Option<Vec3>,
+    mean: Option<Vec4>,
 }
 
 impl ImageFacts {
@@ -34,8 +34,8 @@ impl ImageFacts {
         self.clear > 0 && self.partial * 4 < self.texels
     }
 
-    /// Mean colour of the texels as they are stored (sRGB), if any were seen.
-    pub fn mean(&self) -> Option<Vec3> {
+    /// Mean colour of the texels as they are stored (sRGB), weighted by alpha, and mean alpha, if any were seen.
+    pub fn mean(&self) -> Option<Vec4> {
         self.mean
     }
 
@@ -81,13 +81,17 @@ fn covers(shape: &ImageShape, region: &Region) -> bool {
     region.offset == [0; 3] && region.extent == [shape.width, shape.height, shape.depth]
 }
 
-fn mean_color(texels: &[u8]) -> Option<Vec3> {
+fn mean_color(texels: &[u8]) -> Option<Vec4> {
     let count = texels.len() / 4;
     let step = count.div_ceil(MEAN_SAMPLES).max(1);
-    let sampled = texels.chunks_exact(4).step_by(step);
-    let samples = sampled.len();
-    let sum: Vec3 = sampled.map(|t| Vec3::new(t[0].into(), t[1].into(), t[2].into())).sum();
-    (samples > 0).then(|| sum / (255.0 * samples as f32))
+    let (mut sum, mut alpha, mut samples) = (Vec3::ZERO, 0.0, 0.0);
+    for texel in texels.chunks_exact(4).step_by(step) {
+        let [r, g, b, a] = [texel[0], texel[1], texel[2], texel[3]].map(|byte| f32::from(byte) / 255.0);
+        sum += a * Vec3::new(r, g, b);
+        alpha += a;
+        samples += 1.0;
+    }
+    (samples > 0.0).then(|| (sum / f32::max(alpha, 1e-6)).extend(alpha / samples))
 }
 
 /// Knowledge of all images of a context, learnt from the operations of its frames.
@@ -153,11 +157,9 @@ mod tests {
             format: TexelFormat::Rgba8,
             base_format: format,
         };
-        let region =
-            Region { level: 0, layer: 0, offset: [0; 3], extent: [texels.len() as u32, 1, 1] };
+        let region = Region { level: 0, layer: 0, offset: [0; 3], extent: [texels.len() as u32, 1, 1] };
         let upload = ImageUpload { image, region, texels: texels.as_flattened().into() };
-        let operations =
-            vec![Operation::DefineImage { image, shape }, Operation::Upload(upload)];
+        let operations = vec![Operation::DefineImage { image, shape }, Operation::Upload(upload)];
         (Frame { operations, ..Frame::default() }, image)
     }
 
@@ -188,7 +190,7 @@ mod tests {
     #[test]
     fn the_mean_is_of_the_colours() {
         let found = facts(BaseFormat::Rgb, &[[255, 0, 0, 255], [0, 0, 255, 255]]);
-        assert!(found.mean().unwrap().abs_diff_eq(Vec3::new(0.5, 0.0, 0.5), 1e-6));
+        assert!(found.mean().unwrap().abs_diff_eq(Vec4::new(0.5, 0.0, 0.5, 1.0), 1e-6));
     }
 
     #[test]
@@ -202,10 +204,7 @@ mod tests {
         frame.operations.remove(0);
         images.learn(&frame);
         assert!(images.get(image).unwrap().is_opaque());
-        images.forget(&Frame {
-            operations: vec![Operation::DropImage(image)],
-            ..Frame::default()
-        });
+        images.forget(&Frame { operations: vec![Operation::DropImage(image)], ..Frame::default() });
         assert!(images.get(image).is_none());
     }
 }

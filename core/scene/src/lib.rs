@@ -13,6 +13,11 @@ mod matrix;
 mod opacity;
 mod recovery;
 mod sky;
+mod surfaces;
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests;
 mod types;
 mod views;
 mod world;

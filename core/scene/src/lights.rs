@@ -52,7 +52,8 @@ pub fn gather<'a>(
             continue;
         }
         let enabled = (0..LIGHTS).filter(|i| global.lights() >> i & 1 != 0);
-        let sum = enabled.clone().fold(rgb(lights.scene_ambient), |sum, i| sum + rgb(lights.lights[i].ambient));
+        let sum =
+            enabled.clone().fold(rgb(lights.scene_ambient), |sum, i| sum + rgb(lights.lights[i].ambient));
         ambient += sum.clamp(Vec3::ZERO, Vec3::ONE) * triangles as f32;
         ambient_weight += triangles as f32;
         lit += if global.lights() != 0 { triangles } else { 0 };
@@ -101,12 +102,7 @@ fn is_same(a: &SceneLight, b: &SceneLight, extent: f32) -> bool {
     places && a.color.abs_diff_eq(b.color, 0.01)
 }
 
-fn scene_light(
-    light: &Light,
-    index: u8,
-    world_from_eye: DMat4,
-    scene_centre: DVec3,
-) -> Option<SceneLight> {
+fn scene_light(light: &Light, index: u8, world_from_eye: DMat4, scene_centre: DVec3) -> Option<SceneLight> {
     let color = linear_from_srgb(rgb(light.diffuse).max(Vec3::ZERO));
     let [x, y, z, w] = light.position.map(f64::from);
     let shape = if w == 0.0 {

@@ -13,6 +13,12 @@ pub fn bits(columns: &[[f32; 4]; 4]) -> [u32; 16] {
     bytemuck::cast(columns.map(|column| column.map(|x| x + 0.0)))
 }
 
+/// Whether all entries are numbers with which one can reckon in f32 as well.
+pub fn is_sound(matrix: DMat4) -> bool {
+    // Written so that what is not a number fails.
+    matrix.to_cols_array().iter().all(|entry| entry.abs() < 1e15)
+}
+
 /// A perspective projection without what else the program put into its PROJECTION matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perspective {
@@ -37,7 +43,8 @@ pub fn factor_perspective(projection: DMat4) -> Option<Perspective> {
     let w = projection.row(3);
     let scale = projection.row(0).truncate().length() + projection.row(1).truncate().length();
     let depth_weight = w.truncate().length();
-    if depth_weight.is_nan() || depth_weight <= 1e-9 * scale || projection.determinant() == 0.0 {
+    let is_orthographic = depth_weight <= 1e-9 * scale;
+    if is_orthographic || !is_sound(projection) || projection.determinant() == 0.0 {
         return None;
     }
     let beside_axis = w.x.abs() + w.y.abs() + w.w.abs();
@@ -55,16 +62,14 @@ fn factor_view(projection: DMat4) -> Option<Perspective> {
     let axis_x = axis_y.cross(axis_z);
     let rotation = DMat3::from_cols(axis_x, axis_y, axis_z).transpose();
     // The centre of projection is where x, y and w vanish.
-    let rows =
-        DMat3::from_cols(row_x.truncate(), row_y.truncate(), row_w.truncate()).transpose();
+    let rows = DMat3::from_cols(row_x.truncate(), row_y.truncate(), row_w.truncate()).transpose();
     if rows.determinant() == 0.0 {
         return None;
     }
     let centre = rows.inverse() * -DVec3::new(row_x.w, row_y.w, row_w.w);
     let view = DMat4::from_mat3(rotation) * DMat4::from_translation(-centre);
     let pure = projection * rigid_inverse(view);
-    let is_sound = pure.is_finite() && view.is_finite();
-    is_sound.then_some(Perspective { projection: pure, view })
+    (is_sound(pure) && is_sound(view)).then_some(Perspective { projection: pure, view })
 }
 
 /// A transform as rotation (or reflection) and translation with one scale before them.
@@ -82,9 +87,8 @@ pub fn similarity(matrix: DMat4) -> Option<Similarity> {
     let axes = [0, 1, 2].map(|i| matrix.col(i).truncate());
     let scale = axes.iter().map(|axis| axis.length()).sum::<f64>() / 3.0;
     let even = axes.iter().all(|axis| (axis.length() - scale).abs() < 2e-3 * scale);
-    let square = [(0, 1), (0, 2), (1, 2)]
-        .iter()
-        .all(|&(a, b)| axes[a].dot(axes[b]).abs() < 2e-3 * scale * scale);
+    let square =
+        [(0, 1), (0, 2), (1, 2)].iter().all(|&(a, b)| axes[a].dot(axes[b]).abs() < 2e-3 * scale * scale);
     let affine = bottom.abs_diff_eq(DVec4::W, 1e-9);
     (matrix.is_finite() && scale > 0.0 && even && square && affine)
         .then(|| Similarity { rigid: orthonormal(matrix), scale: snapped(scale) })
@@ -103,12 +107,7 @@ pub fn orthonormal(matrix: DMat4) -> DMat4 {
     let right = axis_y.cross(axis_z);
     let axis_x = if right.dot(x) < 0.0 { -right } else { right };
     let translation = matrix.col(3).truncate();
-    DMat4::from_cols(
-        axis_x.extend(0.0),
-        axis_y.extend(0.0),
-        axis_z.extend(0.0),
-        translation.extend(1.0),
-    )
+    DMat4::from_cols(axis_x.extend(0.0), axis_y.extend(0.0), axis_z.extend(0.0), translation.extend(1.0))
 }
 
 /// Inverse of a rotation (or reflection) with translation, exact but for rounding.
@@ -133,19 +132,23 @@ mod tests {
     use super::*;
 
     fn frustum() -> DMat4 {
-        DMat4::perspective_rh_gl(1.0, 1.5, 0.5, 100.0)
+        glam::dcamera::rh::proj::opengl::perspective(1.0, 1.5, 0.5, 100.0)
     }
 
     #[test]
     fn a_plain_projection_has_no_view() {
         let parts = factor_perspective(frustum()).unwrap();
         assert_eq!(parts.view, DMat4::IDENTITY);
-        assert!(factor_perspective(DMat4::orthographic_rh_gl(0., 1., 0., 1., -1., 1.)).is_none());
+        assert!(
+            factor_perspective(glam::dcamera::rh::proj::opengl::orthographic(0., 1., 0., 1., -1., 1.))
+                .is_none()
+        );
     }
 
     #[test]
     fn a_left_handed_projection_is_perspective() {
-        let parts = factor_perspective(DMat4::perspective_lh(1.0, 1.5, 0.5, 100.0)).unwrap();
+        let parts =
+            factor_perspective(glam::dcamera::lh::proj::opengl::perspective(1.0, 1.5, 0.5, 100.0)).unwrap();
         assert_eq!(parts.view, DMat4::IDENTITY);
     }
 
@@ -180,12 +183,7 @@ mod tests {
     fn planar_shadow_matrices_flatten() {
         let light = DVec4::new(2.0, 8.0, 3.0, 1.0);
         let plane = DVec4::new(0.0, 1.0, 0.0, 0.5);
-        let outer = DMat4::from_cols(
-            light * plane.x,
-            light * plane.y,
-            light * plane.z,
-            light * plane.w,
-        );
+        let outer = DMat4::from_cols(light * plane.x, light * plane.y, light * plane.z, light * plane.w);
         let shadow = DMat4::from_diagonal(DVec4::splat(plane.dot(light))) - outer;
         let view = DMat4::from_rotation_x(0.5) * DMat4::from_translation(DVec3::splat(4.0));
         assert!(is_flattening(view * shadow));

@@ -1,11 +1,11 @@
 //! Whether blending a draw can show what is behind it: fragments' alpha followed through the fixed function.
 
 use afterglow_gl::frame::{
-    BaseFormat, Blend, BlendEquation, BlendFactor, CombineFunction, CombineSource, Draw, EnvMode,
-    Frame, TEXTURE_UNITS, UnitWords,
+    BaseFormat, Blend, BlendEquation, BlendFactor, CombineFunction, CombineSource, Draw, EnvMode, Frame,
+    TEXTURE_UNITS, UnitWords,
 };
 
-use crate::geometry::Colors;
+use crate::geometry::{ContentCache, is_one};
 use crate::images::{ImageFacts, Images};
 
 /// What a draw's blending amounts to.
@@ -24,7 +24,7 @@ pub enum Mixing {
 }
 
 /// What blending makes of a draw, the alpha of its vertices and texels considered.
-pub fn mixing(frame: &Frame, draw: &Draw, colors: Colors, images: &Images) -> Mixing {
+pub fn mixing(frame: &Frame, draw: &Draw, images: &Images, cache: &mut ContentCache) -> Mixing {
     use BlendFactor as F;
     let raster = &frame.fixed[draw.fixed as usize].raster;
     let Some(Blend { rgb, equation_rgb, .. }) = raster.blend else { return Mixing::Opaque };
@@ -33,7 +33,7 @@ pub fn mixing(frame: &Frame, draw: &Draw, colors: Colors, images: &Images) -> Mi
     }
     match rgb {
         (F::One, F::Zero) => Mixing::Opaque,
-        (F::SourceAlpha | F::One, F::OneMinusSourceAlpha) => by_alpha(frame, draw, colors, images),
+        (F::SourceAlpha | F::One, F::OneMinusSourceAlpha) => by_alpha(frame, draw, images, cache),
         (F::DestinationColor, F::Zero | F::SourceColor)
         | (F::Zero, F::SourceColor | F::OneMinusSourceColor)
         | (F::DestinationColor, F::OneMinusSourceAlpha) => Mixing::Multiply,
@@ -42,9 +42,9 @@ pub fn mixing(frame: &Frame, draw: &Draw, colors: Colors, images: &Images) -> Mi
     }
 }
 
-fn by_alpha(frame: &Frame, draw: &Draw, colors: Colors, images: &Images) -> Mixing {
+fn by_alpha(frame: &Frame, draw: &Draw, images: &Images, cache: &mut ContentCache) -> Mixing {
     let fragment = Fragment { frame, draw, images };
-    let primary = fragment.primary_alpha_is_one(colors);
+    let primary = fragment.primary_alpha_is_one(cache);
     if fragment.alpha_is_one(primary, ImageFacts::is_opaque) {
         Mixing::Opaque
     } else if fragment.alpha_is_one(primary, |i| i.is_opaque() || i.is_cut_out()) {
@@ -62,19 +62,19 @@ struct Fragment<'a> {
 
 impl Fragment<'_> {
     /// Alpha before texturing: the colour's, or the diffuse material's when lit.
-    fn primary_alpha_is_one(&self, colors: Colors) -> bool {
+    fn primary_alpha_is_one(&self, cache: &mut ContentCache) -> bool {
         let global = self.frame.fixed[self.draw.fixed as usize].words.global;
         if global.lighting() == 0 {
-            return colors.opaque;
+            return cache.has_opaque_colors(self.frame, self.draw);
         }
         let tracks_diffuse = global.color_material() != 0 && matches!(global.color_material_mode(), 0 | 2);
         let material = self.frame.materials.get(self.draw.material as usize);
         let sides = 1 + global.two_side() as usize;
         (0..sides).all(|side| {
             if tracks_diffuse && global.color_material_faces() >> side & 1 != 0 {
-                colors.opaque
+                cache.has_opaque_colors(self.frame, self.draw)
             } else {
-                material.is_none_or(|m| m.faces[side].diffuse[3] > 1.0 - 0.5 / 255.0)
+                material.is_none_or(|m| is_one(m.faces[side].diffuse[3]))
             }
         })
     }
@@ -129,9 +129,7 @@ impl Fragment<'_> {
                 w if w == CombineSource::Previous as u32 => previous,
                 w if w == CombineSource::Primary as u32 => primary,
                 w if w == CombineSource::One as u32 => true,
-                w if w == CombineSource::Texture as u32 => {
-                    self.texel_alpha_is_one(index, unit, texel_is_one)
-                }
+                w if w == CombineSource::Texture as u32 => self.texel_alpha_is_one(index, unit, texel_is_one),
                 w if w == CombineSource::Constant as u32 => {
                     let environment = self.frame.environments.get(self.draw.environment as usize);
                     environment.is_some_and(|e| e.env_color[index][3] >= 1.0)

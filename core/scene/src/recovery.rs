@@ -3,8 +3,8 @@
 use afterglow_gl::frame::Frame;
 use glam::{DMat3, Vec3};
 
-use crate::classify::Classifier;
-use crate::draws::{self, DrawFacts};
+use crate::classify::classify;
+use crate::draws::{self, DrawFacts, TransformFacts};
 use crate::geometry::ContentCache;
 use crate::images::Images;
 use crate::lights::{self, Lighting};
@@ -54,10 +54,9 @@ impl Recovery {
         let Some(world) = World::find(frame, &views, &draws, &transforms) else {
             return flat_scene(&draws);
         };
-        let mut classifier = Classifier::new(frame, &transforms, &world, &mut self.cache);
-        let verdicts: Vec<Verdict> = draws.iter().map(|d| classifier.verdict(d)).collect();
+        let verdicts = classify(frame, &transforms, &views, &world, &draws);
         let background = views.views[world.view].background;
-        self.light(frame, &world, &draws, verdicts, background)
+        self.light(frame, &world, &draws, &transforms, verdicts, background)
     }
 
     fn light(
@@ -65,6 +64,7 @@ impl Recovery {
         frame: &Frame,
         world: &World,
         draws: &[DrawFacts],
+        transforms: &[TransformFacts],
         verdicts: Vec<Verdict>,
         background: Option<[f32; 4]>,
     ) -> Scene {
@@ -76,7 +76,8 @@ impl Recovery {
             lights.clear();
         }
         let baked = lights.is_empty() && baked_share(&verdicts) > 0.5;
-        let mut sky = sky::color(frame, draws, &verdicts, &self.images, background).unwrap_or(Vec3::ZERO);
+        let mut sky =
+            sky::color(frame, draws, transforms, &verdicts, &self.images, background).unwrap_or(Vec3::ZERO);
         let up = self.up(world);
         if lights.is_empty() && !baked {
             lights.push(lights::fallback_sun(up));
@@ -100,7 +101,7 @@ impl Recovery {
         let world_from_eye = DMat3::from_mat4(world.view_matrix()).transpose();
         let upward = (world_from_eye * world.perspective.upward()).as_vec3();
         let axis = nearest_axis(upward);
-        let kept = self.up.filter(|up| up.dot(upward) > 0.4);
+        let kept = self.up.filter(|up| up.dot(upward) > 0.2);
         *self.up.insert(kept.unwrap_or(axis))
     }
 }
@@ -133,6 +134,7 @@ fn flat_scene(draws: &[DrawFacts]) -> Scene {
         model: glam::Mat4::IDENTITY,
         baked: false,
         triangles: facts.triangles,
+        base: None,
     };
     Scene { verdicts: draws.iter().map(verdict).collect(), ..Scene::default() }
 }

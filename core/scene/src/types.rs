@@ -60,6 +60,8 @@ pub struct Verdict {
     pub baked: bool,
     /// Number of triangles; 0 for points and lines.
     pub triangles: u32,
+    /// Of a layer: the operation that drew the surface below, where it has exactly these triangles.
+    pub base: Option<u32>,
 }
 
 /// Where a light came from.

@@ -73,7 +73,13 @@ impl World {
     ) -> Option<World> {
         let solid = || draws.iter().filter(|d| d.is_solid(transforms));
         let view = choose_view(frame, views, solid())?;
-        let in_view = || solid().filter(|d| d.place.view == view);
+        // What a clip plane or the stencil cuts may be the world seen in a mirror.
+        let triangles = |masked: bool| -> u64 {
+            let counted = solid().filter(|d| d.place.view == view && d.masked == masked);
+            counted.map(|d| u64::from(d.triangles)).sum()
+        };
+        let skip_masked = 4 * triangles(false) >= triangles(true);
+        let in_view = || solid().filter(|d| d.place.view == view && !(skip_masked && d.masked));
 
         let mut stages: HashMap<Stage, Group> = HashMap::new();
         for facts in in_view() {
@@ -124,9 +130,7 @@ fn choose_view<'a>(
         let counts = share >= LEAST_SHARE && !views.views[view].erased;
         if counts { triangles[view] as f64 * share * share } else { 0.0 }
     };
-    (0..triangles.len())
-        .filter(|&view| weight(view) > 0.0)
-        .max_by(|&a, &b| weight(a).total_cmp(&weight(b)))
+    (0..triangles.len()).filter(|&view| weight(view) > 0.0).max_by(|&a, &b| weight(a).total_cmp(&weight(b)))
 }
 
 /// The entry of greatest weight; of equals, the one that was drawn first.

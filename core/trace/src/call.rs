@@ -33,13 +33,7 @@ impl Call {
     }
 
     /// Makes the call a new, empty one that keeps its memory.
-    pub(crate) fn reset(
-        &mut self,
-        number: u32,
-        thread: u32,
-        signature: SignatureId,
-        arguments: usize,
-    ) {
+    pub(crate) fn reset(&mut self, number: u32, thread: u32, signature: SignatureId, arguments: usize) {
         self.number = number;
         self.thread = thread;
         self.signature = signature;

@@ -19,9 +19,7 @@ pub enum TraceError {
     #[error("not an apitrace file")]
     NotATrace,
     /// The data are compressed in a way that is not supported.
-    #[error(
-        "the trace is compressed with {0}, which is not supported; `apitrace repack` converts it"
-    )]
+    #[error("the trace is compressed with {0}, which is not supported; `apitrace repack` converts it")]
     UnsupportedContainer(&'static str),
     /// The trace is newer than this reader.
     #[error("trace format version {version} is newer than the newest known one, {NEWEST_VERSION}")]

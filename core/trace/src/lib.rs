@@ -33,7 +33,7 @@ pub use container::Container;
 pub use error::{Damage, TraceEnd, TraceError};
 pub use reader::TraceReader;
 pub use signature::{
-    BitmaskId, BitmaskSignature, EnumId, EnumSignature, FrameId, FunctionSignature, SignatureId,
-    Signatures, StackFrame, StructId, StructSignature,
+    BitmaskId, BitmaskSignature, EnumId, EnumSignature, FrameId, FunctionSignature, SignatureId, Signatures,
+    StackFrame, StructId, StructSignature,
 };
 pub use value::{StructValue, Value};

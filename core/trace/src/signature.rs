@@ -70,19 +70,13 @@ impl EnumSignature {
     pub(crate) fn new(id: EnumId, values: Vec<(Box<str>, i64)>) -> Self {
         let mut by_value: Vec<u32> = (0..values.len() as u32).collect();
         by_value.sort_by_key(|&position| values[position as usize].1);
-        Self {
-            id,
-            values,
-            by_value,
-        }
+        Self { id, values, by_value }
     }
 
     /// The first name of a value.
     pub fn name(&self, value: i64) -> Option<&str> {
         let at = |&position: &u32| &self.values[position as usize];
-        let first = self
-            .by_value
-            .partition_point(|position| at(position).1 < value);
+        let first = self.by_value.partition_point(|position| at(position).1 < value);
         let (name, found) = self.by_value.get(first).map(at)?;
         (*found == value).then_some(&**name)
     }
@@ -186,11 +180,7 @@ pub(crate) struct Table<T> {
 
 impl<T> Default for Table<T> {
     fn default() -> Self {
-        Self {
-            items: Vec::new(),
-            direct: Vec::new(),
-            others: HashMap::new(),
-        }
+        Self { items: Vec::new(), direct: Vec::new(), others: HashMap::new() }
     }
 }
 
@@ -230,10 +220,7 @@ mod tests {
     #[test]
     fn an_enumeration_gives_the_first_name_of_a_value() {
         let names = [("LINES", 1), ("ZERO", 0), ("ONE", 1), ("MINUS", -3)];
-        let values = names
-            .iter()
-            .map(|&(name, value)| (name.into(), value))
-            .collect();
+        let values = names.iter().map(|&(name, value)| (name.into(), value)).collect();
         let signature = EnumSignature::new(EnumId(0), values);
         assert_eq!(signature.name(1), Some("LINES"));
         assert_eq!(signature.name(0), Some("ZERO"));
@@ -245,10 +232,7 @@ mod tests {
     #[test]
     fn ids_of_any_size_are_found_without_memory_for_the_gaps() {
         let mut table = Table::default();
-        for (index, id) in [7, 0, DIRECT_IDS - 1, DIRECT_IDS, u64::MAX]
-            .into_iter()
-            .enumerate()
-        {
+        for (index, id) in [7, 0, DIRECT_IDS - 1, DIRECT_IDS, u64::MAX].into_iter().enumerate() {
             assert_eq!(table.find(id), None);
             assert_eq!(table.insert(id, ()), index);
             assert_eq!(table.find(id), Some(index));
@@ -259,10 +243,7 @@ mod tests {
 
     #[test]
     fn a_stack_frame_prints_what_it_knows() {
-        let mut frame = StackFrame {
-            offset: Some(16),
-            ..StackFrame::default()
-        };
+        let mut frame = StackFrame { offset: Some(16), ..StackFrame::default() };
         assert_eq!(frame.to_string(), "?+0x10");
         frame = StackFrame {
             module: Some("a.so".into()),

@@ -89,9 +89,7 @@ impl Value {
     pub fn as_i64(&self) -> Option<i64> {
         match *self.machine() {
             Self::SInt(value) | Self::Enum { value, .. } => Some(value),
-            Self::UInt(value) | Self::Bitmask { value, .. } | Self::Pointer(value) => {
-                Some(value as i64)
-            }
+            Self::UInt(value) | Self::Bitmask { value, .. } | Self::Pointer(value) => Some(value as i64),
             Self::Bool(value) => Some(value.into()),
             Self::Float(value) => Some(value as i64),
             Self::Double(value) => Some(value as i64),
@@ -224,10 +222,7 @@ mod tests {
         assert_eq!(Value::Null.as_i64(), Some(0));
         assert_eq!(Value::Bool(true).as_i32(), Some(1));
         assert_eq!(Value::Double(-2.9).as_i64(), Some(-2));
-        assert_eq!(
-            Value::Double(1e19).as_u64(),
-            Some(10_000_000_000_000_000_000)
-        );
+        assert_eq!(Value::Double(1e19).as_u64(), Some(10_000_000_000_000_000_000));
         assert_eq!(Value::Float(0.25).as_bool(), Some(true));
         assert_eq!(Value::Absent.as_i64(), None);
         assert_eq!(Value::String(b"7"[..].into()).as_i64(), None);

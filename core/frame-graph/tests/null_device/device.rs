@@ -24,25 +24,16 @@ struct Event {
 
 impl Event {
     fn of(access: Access) -> Self {
-        Self {
-            access: Some(access),
-            writes: access.writes(),
-            ordered_before: AccessSet::EMPTY,
-        }
+        Self { access: Some(access), writes: access.writes(), ordered_before: AccessSet::EMPTY }
     }
 
     /// A write that `seen_by` can see, but which no barrier can name any more.
     fn past_write(seen_by: AccessSet) -> Self {
-        Self {
-            access: None,
-            writes: true,
-            ordered_before: seen_by,
-        }
+        Self { access: None, writes: true, ordered_before: seen_by }
     }
 
     fn is_in_scope(&self, from: AccessSet) -> bool {
-        self.ordered_before.intersects(from)
-            || self.access.is_some_and(|access| from.contains(access))
+        self.ordered_before.intersects(from) || self.access.is_some_and(|access| from.contains(access))
     }
 }
 
@@ -60,16 +51,9 @@ impl Memory {
         let mut log: Vec<Event> = accesses.iter().map(Event::of).collect();
         if state.is_defined() && !accesses.writes() {
             let everything = || Access::ALL.into_iter().collect();
-            log.push(Event::past_write(if accesses.is_empty() {
-                everything()
-            } else {
-                accesses
-            }));
+            log.push(Event::past_write(if accesses.is_empty() { everything() } else { accesses }));
         }
-        Self {
-            layout: state.layout(&plan.desc).expect("a state that fits"),
-            log,
-        }
+        Self { layout: state.layout(&plan.desc).expect("a state that fits"), log }
     }
 }
 
@@ -84,9 +68,7 @@ impl NullDevice {
     pub fn new(resources: &[ResourcePlan]) -> Self {
         Self {
             resources: resources.iter().map(Memory::in_state).collect(),
-            values: (0..resources.len() as u64)
-                .map(|index| mix(77, index))
-                .collect(),
+            values: (0..resources.len() as u64).map(|index| mix(77, index)).collect(),
             losses: 0,
         }
     }
@@ -146,19 +128,11 @@ impl NullDevice {
     }
 
     /// Executes a pass and returns what it has read, mixed into one value.
-    pub fn execute(
-        &mut self,
-        index: usize,
-        uses: &[ResourceUse],
-        pass: &PassPlan,
-    ) -> Result<u64, String> {
+    pub fn execute(&mut self, index: usize, uses: &[ResourceUse], pass: &PassPlan) -> Result<u64, String> {
         for used in uses {
-            self.access(used)
-                .map_err(|hazard| format!("pass {index}: {hazard}"))?;
+            self.access(used).map_err(|hazard| format!("pass {index}: {hazard}"))?;
         }
-        let read = pass.reads().fold(index as u64, |seed, resource| {
-            mix(seed, self.values[resource])
-        });
+        let read = pass.reads().fold(index as u64, |seed, resource| mix(seed, self.values[resource]));
         for resource in pass.writes() {
             self.values[resource] = mix(read, resource as u64);
         }
@@ -187,13 +161,12 @@ impl NullDevice {
             return Err(format!("{used:?} finds layout {:?}", memory.layout));
         }
         for access in used.accesses.iter() {
-            let mut hazards = memory.log.iter().filter(|event| {
-                (event.writes || access.writes()) && !event.ordered_before.contains(access)
-            });
+            let mut hazards = memory
+                .log
+                .iter()
+                .filter(|event| (event.writes || access.writes()) && !event.ordered_before.contains(access));
             if let Some(event) = hazards.next() {
-                return Err(format!(
-                    "{access:?} of {used:?} is not ordered after {event:?}"
-                ));
+                return Err(format!("{access:?} of {used:?} is not ordered after {event:?}"));
             }
         }
         memory.log.extend(used.accesses.iter().map(Event::of));

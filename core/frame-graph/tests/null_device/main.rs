@@ -21,10 +21,7 @@ struct Shown {
 
 /// The values that a pass writes are made of this and of what it reads.
 fn mix(seed: u64, value: u64) -> u64 {
-    (seed ^ value)
-        .wrapping_mul(0x9E37_79B9_7F4A_7C15)
-        .rotate_left(29)
-        .wrapping_add(value)
+    (seed ^ value).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(29).wrapping_add(value)
 }
 
 fn shown_outputs(resources: &[ResourcePlan], memory: &[u64]) -> Vec<(usize, u64)> {
@@ -39,9 +36,7 @@ fn run_plainly(frame: &FramePlan, resources: &[ResourcePlan], memory: &mut [u64]
         if !pass.required {
             continue;
         }
-        let read = pass
-            .reads()
-            .fold(index as u64, |seed, resource| mix(seed, memory[resource]));
+        let read = pass.reads().fold(index as u64, |seed, resource| mix(seed, memory[resource]));
         for resource in pass.writes() {
             memory[resource] = mix(read, resource as u64);
         }
@@ -49,10 +44,7 @@ fn run_plainly(frame: &FramePlan, resources: &[ResourcePlan], memory: &mut [u64]
             observations.push(read);
         }
     }
-    Shown {
-        outputs: shown_outputs(resources, memory),
-        observations,
-    }
+    Shown { outputs: shown_outputs(resources, memory), observations }
 }
 
 /// Executes the compiled frame on the device; `omitted` leaves out one barrier.
@@ -82,26 +74,14 @@ fn run_compiled(
         }
     }
     device.lend_idle_memory(graph, graph.steps().len() as u32);
-    Ok(Shown {
-        outputs: shown_outputs(resources, device.memory()),
-        observations,
-    })
+    Ok(Shown { outputs: shown_outputs(resources, device.memory()), observations })
 }
 
 /// The states in which the next frame finds the resources. Contents that were no output are void
 /// if the frame wrote them, or might have lent their memory out.
-fn next_states(
-    graph: &CompiledGraph,
-    frame: &FramePlan,
-    resources: &[ResourcePlan],
-) -> Vec<ResourceState> {
+fn next_states(graph: &CompiledGraph, frame: &FramePlan, resources: &[ResourcePlan]) -> Vec<ResourceState> {
     let written: Vec<bool> = (0..resources.len())
-        .map(|index| {
-            frame
-                .passes
-                .iter()
-                .any(|pass| pass.writes().any(|w| w == index))
-        })
+        .map(|index| frame.passes.iter().any(|pass| pass.writes().any(|w| w == index)))
         .collect();
     let ids = graph.resources();
     ids.map(|id| {
@@ -132,8 +112,8 @@ fn check_program(program: &Program) -> Result<(), TestCaseError> {
             .compile()
             .map_err(|error| TestCaseError::fail(error.to_string()))?;
         let expected = run_plainly(&frame, resources, &mut memory);
-        let shown = run_compiled(&graph, &frame, resources, &mut device, None)
-            .map_err(TestCaseError::fail)?;
+        let shown =
+            run_compiled(&graph, &frame, resources, &mut device, None).map_err(TestCaseError::fail)?;
         prop_assert_eq!(expected, shown);
         states = next_states(&graph, &frame, resources);
         device.synchronize_values(resources, &states, &mut memory);

@@ -1,8 +1,7 @@
 //! Random programs: resources, and frames of passes that use them in ways that make sense.
 
 use afterglow_frame_graph::{
-    Access, AccessSet, Format, GraphBuilder, ImageDesc, PassKind, Residence, ResourceDesc,
-    ResourceState,
+    Access, AccessSet, Format, GraphBuilder, ImageDesc, PassKind, Residence, ResourceDesc, ResourceState,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -98,10 +97,7 @@ impl PassPlan {
     }
 
     fn tolerates(&self, resource: usize, access: Access, desc: &ResourceDesc) -> bool {
-        let earlier = self
-            .accesses
-            .iter()
-            .filter(|(other, _, _)| *other == resource);
+        let earlier = self.accesses.iter().filter(|(other, _, _)| *other == resource);
         let earlier: AccessSet = earlier.map(|(_, access, _)| *access).collect();
         let all = earlier | access.into();
         all.is_free_of_conflict() && (!desc.is_image() || all.layout().is_some())
@@ -127,9 +123,7 @@ impl FramePlan {
             }
             pass
         });
-        Self {
-            passes: passes.collect(),
-        }
+        Self { passes: passes.collect() }
     }
 
     pub fn declare(&self, resources: &[ResourcePlan], states: &[ResourceState]) -> GraphBuilder {
@@ -175,15 +169,8 @@ fn descs() -> impl Strategy<Value = ResourceDesc> {
 
 /// States that a resource can be in before the first frame.
 fn initial_states(desc: ResourceDesc) -> impl Strategy<Value = ResourceState> {
-    let fitting: Vec<Access> = Access::ALL
-        .into_iter()
-        .filter(|access| access.fits(&desc))
-        .collect();
-    let settled = if desc.is_image() {
-        ResourceState::UNDEFINED
-    } else {
-        ResourceState::SETTLED
-    };
+    let fitting: Vec<Access> = Access::ALL.into_iter().filter(|access| access.fits(&desc)).collect();
+    let settled = if desc.is_image() { ResourceState::UNDEFINED } else { ResourceState::SETTLED };
     let access = proptest::sample::select(fitting);
     prop_oneof![
         Just(ResourceState::UNDEFINED),
@@ -194,22 +181,15 @@ fn initial_states(desc: ResourceDesc) -> impl Strategy<Value = ResourceState> {
 }
 
 fn resources() -> impl Strategy<Value = ResourcePlan> {
-    let residences = prop_oneof![
-        Just(Residence::Transient),
-        Just(Residence::History),
-        Just(Residence::Imported),
-    ];
+    let residences =
+        prop_oneof![Just(Residence::Transient), Just(Residence::History), Just(Residence::Imported),];
     (descs(), residences, any::<bool>()).prop_flat_map(|(desc, residence, is_output)| {
         initial_states(desc).prop_map(move |initial| {
             let transient = residence == Residence::Transient;
             ResourcePlan {
                 desc,
                 residence,
-                initial: if transient {
-                    ResourceState::UNDEFINED
-                } else {
-                    initial
-                },
+                initial: if transient { ResourceState::UNDEFINED } else { initial },
                 is_output: is_output && !transient,
             }
         })
@@ -230,18 +210,9 @@ fn passes() -> impl Strategy<Value = PassSeed> {
         1 => Just(Mode::ReadWrite),
     ];
     let accesses = vec((any::<u8>(), any::<u8>(), modes), 0..6);
-    (
-        kinds,
-        accesses,
-        prop::bool::weighted(0.1),
-        prop::bool::weighted(0.85),
+    (kinds, accesses, prop::bool::weighted(0.1), prop::bool::weighted(0.85)).prop_map(
+        |(kind, accesses, side_effect, required)| PassSeed { kind, accesses, side_effect, required },
     )
-        .prop_map(|(kind, accesses, side_effect, required)| PassSeed {
-            kind,
-            accesses,
-            side_effect,
-            required,
-        })
 }
 
 /// Up to six resources and three frames of up to twelve passes.

@@ -298,10 +298,7 @@ impl Frame {
         match draw.source {
             VertexSource::Arena { first_word, vertices, first_index } => {
                 let words = vertices as usize * draw.layout.stride();
-                (
-                    &self.words[first_word as usize..][..words],
-                    &self.indices[first_index as usize..][..count],
-                )
+                (&self.words[first_word as usize..][..words], &self.indices[first_index as usize..][..count])
             }
             VertexSource::Retained { range, first_index } => {
                 let range = &self.retained[range as usize];

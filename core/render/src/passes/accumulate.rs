@@ -39,18 +39,11 @@ impl Accumulated {
     pub(crate) fn of(frame: &Frame, operation: usize, size: [u32; 2]) -> Option<Self> {
         let (operation, value, clear, scissor) = match &frame.operations[operation] {
             Operation::ClearAccumulation(color) => (Accumulation::Clear, 0.0, *color, None),
-            Operation::Accumulate(op, value, scissor) => {
-                (kind(*op), *value, [0.0; 4], scissor.as_ref())
-            }
+            Operation::Accumulate(op, value, scissor) => (kind(*op), *value, [0.0; 4], scissor.as_ref()),
             _ => return None,
         };
         let rect = window::scissor(scissor, size);
-        (rect.extent.width > 0 && rect.extent.height > 0).then_some(Self {
-            operation,
-            value,
-            clear,
-            rect,
-        })
+        (rect.extent.width > 0 && rect.extent.height > 0).then_some(Self { operation, value, clear, rect })
     }
 
     /// Whether it needs the window's colours.

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use afterglow_gl::frame::{
-    Clear, Compare, Cull, Depth, FixedState, Frame, Operation, RasterState, StateWords, Stencil,
-    StencilOp, Topology, VertexLayout, Viewport,
+    Clear, Compare, Cull, Depth, FixedState, Frame, Operation, RasterState, StateWords, Stencil, StencilOp,
+    Topology, VertexLayout, Viewport,
 };
 use afterglow_gpu::{GpuError, vk};
 use afterglow_records::ClearPush;
@@ -74,17 +74,12 @@ fn effective(clear: &Clear) -> Clear {
 /// Whether all bits are written of what is cleared.
 fn is_complete(clear: &Clear) -> bool {
     let all_colors = clear.color.is_none() || clear.color_mask & COLOR_MASK == COLOR_MASK;
-    all_colors
-        && clear
-            .stencil
-            .is_none_or(|(_, mask)| mask & STENCIL_MASK == STENCIL_MASK)
+    all_colors && clear.stencil.is_none_or(|(_, mask)| mask & STENCIL_MASK == STENCIL_MASK)
 }
 
 fn color_value(color: [f32; 4]) -> vk::ClearValue {
     vk::ClearValue {
-        color: vk::ClearColorValue {
-            float32: color.map(|component| component.clamp(0.0, 1.0)),
-        },
+        color: vk::ClearColorValue { float32: color.map(|component| component.clamp(0.0, 1.0)) },
     }
 }
 
@@ -111,11 +106,8 @@ impl RasterPass<'_> {
     fn clear_attachments(&self, clear: &Clear) {
         let rect = window::scissor(clear.scissor.as_ref(), self.input.target.size);
         let mut attachments = Vec::with_capacity(2);
-        let attachment = |aspect, value| {
-            vk::ClearAttachment::default()
-                .aspect_mask(aspect)
-                .clear_value(value)
-        };
+        let attachment =
+            |aspect, value| vk::ClearAttachment::default().aspect_mask(aspect).clear_value(value);
         if let Some(color) = clear.color {
             attachments.push(attachment(vk::ImageAspectFlags::COLOR, color_value(color)));
         }
@@ -133,16 +125,10 @@ impl RasterPass<'_> {
         if attachments.is_empty() || rect.extent.width == 0 || rect.extent.height == 0 {
             return;
         }
-        let rects = [vk::ClearRect {
-            rect,
-            base_array_layer: 0,
-            layer_count: 1,
-        }];
+        let rects = [vk::ClearRect { rect, base_array_layer: 0, layer_count: 1 }];
         // SAFETY: the pass has these attachments, and the rectangle lies within them.
         unsafe {
-            self.commands
-                .device()
-                .cmd_clear_attachments(self.commands.raw(), &attachments, &rects);
+            self.commands.device().cmd_clear_attachments(self.commands.raw(), &attachments, &rects);
         }
     }
 
@@ -158,29 +144,23 @@ impl RasterPass<'_> {
             topology,
             clamps: 0,
             raster: PipelineRaster::new(&fixed.raster, topology, false, features),
+            visibility: self.kept_visibility(),
         })?;
         self.set_pipeline(pipeline);
         self.set_numbers(&fixed);
         let size = self.input.target.size;
         self.set_viewport(
             window::window_viewport(size),
-            &Viewport {
-                rect: Default::default(),
-                depth_range: [0.0, 1.0],
-                scissor: clear.scissor,
-            },
+            &Viewport { rect: Default::default(), depth_range: [0.0, 1.0], scissor: clear.scissor },
         );
         let push = ClearPush {
             color: clear.color.unwrap_or_default(),
             depth: clear.depth.unwrap_or(0.0).clamp(0.0, 1.0),
         };
-        self.commands
-            .push_constants(&self.state.pipelines.clear_layout, &push);
+        self.commands.push_constants(&self.state.pipelines.clear_layout, &push);
         // SAFETY: the pipeline's state is complete; its vertices need no memory.
         unsafe {
-            self.commands
-                .device()
-                .cmd_draw(self.commands.raw(), 3, 1, 0, 0);
+            self.commands.device().cmd_draw(self.commands.raw(), 3, 1, 0, 0);
         }
         self.unbind();
         Ok(())
@@ -196,10 +176,7 @@ fn clear_state(clear: &Clear) -> FixedState {
             blend: None,
             logic_op: None,
             color_mask: if clear.color.is_some() { clear.color_mask } else { 0 },
-            depth: clear.depth.map(|_| Depth {
-                compare: Compare::Always,
-                write: true,
-            }),
+            depth: clear.depth.map(|_| Depth { compare: Compare::Always, write: true }),
             stencil: clear.stencil.map(|_| Stencil {
                 compare: Compare::Always,
                 reference: value,
@@ -223,53 +200,27 @@ mod tests {
     use super::*;
     use afterglow_gl::frame::Rect;
 
-    const WHOLE: Clear = Clear {
-        color: Some([1.0; 4]),
-        color_mask: 0xf,
-        depth: Some(0.5),
-        stencil: None,
-        scissor: None,
-    };
+    const WHOLE: Clear =
+        Clear { color: Some([1.0; 4]), color_mask: 0xf, depth: Some(0.5), stencil: None, scissor: None };
 
     fn load_of(clears: &[Clear]) -> (LoadOps, usize) {
         let operations: Vec<_> = clears.iter().copied().map(Operation::Clear).collect();
-        let frame = Frame {
-            operations,
-            ..Frame::default()
-        };
+        let frame = Frame { operations, ..Frame::default() };
         leading(&frame, 0..clears.len(), [4, 4])
     }
 
     #[test]
     fn whole_clears_begin_a_pass() {
-        let stencil = Clear {
-            color: None,
-            depth: None,
-            stencil: Some((3, 0xffff_ffff)),
-            ..WHOLE
-        };
+        let stencil = Clear { color: None, depth: None, stencil: Some((3, 0xffff_ffff)), ..WHOLE };
         let (load, rest) = load_of(&[WHOLE, stencil]);
         assert_eq!((load.depth, load.stencil, rest), (Some(0.5), Some(3), 2));
 
-        let masked = Clear {
-            color_mask: 0b0111,
-            ..WHOLE
-        };
+        let masked = Clear { color_mask: 0b0111, ..WHOLE };
         assert_eq!(load_of(&[masked]), (LoadOps::default(), 0));
-        let unwritten = Clear {
-            color_mask: 0,
-            ..WHOLE
-        };
+        let unwritten = Clear { color_mask: 0, ..WHOLE };
         assert_eq!(load_of(&[unwritten]).0.color, None);
-        let part = Rect {
-            width: 4,
-            height: 3,
-            ..Rect::default()
-        };
-        let part = Clear {
-            scissor: Some(part),
-            ..WHOLE
-        };
+        let part = Rect { width: 4, height: 3, ..Rect::default() };
+        let part = Clear { scissor: Some(part), ..WHOLE };
         assert_eq!(load_of(&[part, WHOLE]), (LoadOps::default(), 0));
     }
 }

@@ -31,9 +31,7 @@ impl Flip {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         let desc = ComputeDesc::new("flip.comp", afterglow_shaders::FLIP_COMP)
             .push_constants(size_of::<FlipPush>() as u32);
-        Ok(Self {
-            pipeline: gpu.create_compute_pipeline(&desc)?,
-        })
+        Ok(Self { pipeline: gpu.create_compute_pipeline(&desc)? })
     }
 
     /// Records the second step: the store's first half to its second half.
@@ -85,19 +83,11 @@ pub(crate) fn prepare(
             });
         }
     }
-    Ok(FlipRecords {
-        address: arena.push_table(&records)?.address,
-        count: records.len() as u32,
-    })
+    Ok(FlipRecords { address: arena.push_table(&records)?.address, count: records.len() as u32 })
 }
 
 /// Records the first step: the window to the store's first half.
-pub(crate) fn record_read(
-    commands: &Commands<'_>,
-    target: &Target,
-    batch: &CopyBatch,
-    store: &Store,
-) {
+pub(crate) fn record_read(commands: &Commands<'_>, target: &Target, batch: &CopyBatch, store: &Store) {
     let Some(buffer) = store.buffer() else { return };
     let (image, aspect) = if batch.from_depth {
         (&target.depth, vk::ImageAspectFlags::DEPTH)
@@ -113,12 +103,7 @@ pub(crate) fn record_read(
 }
 
 /// Records the last step: the store's second half to the textures.
-pub(crate) fn record_write(
-    commands: &Commands<'_>,
-    batch: &CopyBatch,
-    store: &Store,
-    textures: &Textures,
-) {
+pub(crate) fn record_write(commands: &Commands<'_>, batch: &CopyBatch, store: &Store, textures: &Textures) {
     let Some(buffer) = store.buffer() else { return };
     for item in &batch.items {
         if let Some(texture) = textures.get(item.image) {
@@ -145,16 +130,8 @@ pub(crate) fn window_region(
             base_array_layer: 0,
             layer_count: 1,
         },
-        image_offset: vk::Offset3D {
-            x: rect.offset.x,
-            y: rect.offset.y,
-            z: 0,
-        },
-        image_extent: vk::Extent3D {
-            width: rect.extent.width,
-            height: rect.extent.height,
-            depth: 1,
-        },
+        image_offset: vk::Offset3D { x: rect.offset.x, y: rect.offset.y, z: 0 },
+        image_extent: vk::Extent3D { width: rect.extent.width, height: rect.extent.height, depth: 1 },
     }
 }
 

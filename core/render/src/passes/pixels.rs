@@ -1,8 +1,8 @@
 //! Rectangles of pixels (glDrawPixels, glBitmap, glCopyPixels), drawn as fragments.
 
 use afterglow_gl::frame::{
-    Cull, FixedState, Frame, Operation, PixelBuffer, PixelCopy, PixelRectangle, RasterState,
-    Topology, VertexLayout,
+    Cull, FixedState, Frame, Operation, PixelBuffer, PixelCopy, PixelRectangle, RasterState, Topology,
+    VertexLayout,
 };
 use afterglow_gpu::{Commands, GpuError, vk};
 use afterglow_records::DrawPush;
@@ -59,9 +59,8 @@ fn read_rect(frame: &Frame, operation: usize, size: [u32; 2]) -> Option<(PixelBu
 
 /// Bytes that a copy's pixels need in the store.
 pub(crate) fn store_bytes(frame: &Frame, operation: usize, size: [u32; 2]) -> u64 {
-    read_rect(frame, operation, size).map_or(0, |(_, rect)| {
-        u64::from(rect.extent.width) * u64::from(rect.extent.height) * 4
-    })
+    read_rect(frame, operation, size)
+        .map_or(0, |(_, rect)| u64::from(rect.extent.width) * u64::from(rect.extent.height) * 4)
 }
 
 /// Records the copy of the window's pixels to the store, from where they are drawn.
@@ -90,11 +89,9 @@ impl RasterPass<'_> {
     pub(crate) fn pixels(&mut self, state: &PixelState, number: usize) -> Result<(), GpuError> {
         let frame = self.input.frame;
         let rectangle = self.input.rectangles.rectangles[number];
-        let (Some(rectangle), Some(fixed), Some(viewport)) = (
-            rectangle,
-            frame.fixed.get(state.fixed as usize),
-            frame.viewports.get(state.viewport as usize),
-        ) else {
+        let (Some(rectangle), Some(fixed), Some(viewport)) =
+            (rectangle, frame.fixed.get(state.fixed as usize), frame.viewports.get(state.viewport as usize))
+        else {
             return Ok(());
         };
         let size = self.input.target.size;
@@ -104,38 +101,22 @@ impl RasterPass<'_> {
         if rectangle.is_stencil {
             // All bits are set to zero first, then each one where the source has it.
             for record in 0..=STENCIL_BITS {
-                let push = DrawPush {
-                    pixels: rectangle.first + record,
-                    ..push
-                };
+                let push = DrawPush { pixels: rectangle.first + record, ..push };
                 let state = stencil_state(fixed, record.checked_sub(1));
                 self.draw_pixels(&state, clamps, &push)?;
             }
         } else {
-            let push = DrawPush {
-                pixels: rectangle.first,
-                ..push
-            };
+            let push = DrawPush { pixels: rectangle.first, ..push };
             self.draw_pixels(fixed, clamps, &push)?;
         }
         self.unbind();
         Ok(())
     }
 
-    fn draw_pixels(
-        &mut self,
-        fixed: &FixedState,
-        clamps: u32,
-        push: &DrawPush,
-    ) -> Result<(), GpuError> {
+    fn draw_pixels(&mut self, fixed: &FixedState, clamps: u32, push: &DrawPush) -> Result<(), GpuError> {
         let topology = Topology::Triangles;
         // What concerns polygons does not concern these fragments.
-        let raster = RasterState {
-            cull: Cull::None,
-            front_ccw: true,
-            depth_bias: None,
-            ..fixed.raster
-        };
+        let raster = RasterState { cull: Cull::None, front_ccw: true, depth_bias: None, ..fixed.raster };
         let features = self.input.gpu.features();
         let pipeline = self.state.pipelines.get(&PipelineKey {
             program: Program::Pixels,
@@ -144,16 +125,14 @@ impl RasterPass<'_> {
             topology,
             clamps,
             raster: PipelineRaster::new(&raster, topology, false, features),
+            visibility: self.kept_visibility(),
         })?;
         self.set_pipeline(pipeline);
         self.set_numbers(&FixedState { raster, ..*fixed });
-        self.commands
-            .push_constants(&self.state.pipelines.draw_layout, push);
+        self.commands.push_constants(&self.state.pipelines.draw_layout, push);
         // SAFETY: the pipeline's state is complete; its vertices need no memory.
         unsafe {
-            self.commands
-                .device()
-                .cmd_draw(self.commands.raw(), 6, 1, 0, 0);
+            self.commands.device().cmd_draw(self.commands.raw(), 6, 1, 0, 0);
         }
         Ok(())
     }

@@ -1,8 +1,6 @@
 //! Draws and clears of a run of operations, as OpenGL defines them.
 
-use afterglow_gl::frame::{
-    Cull, Draw, FixedState, Frame, Operation, Topology, VertexLayout, Viewport,
-};
+use afterglow_gl::frame::{Cull, Draw, FixedState, Frame, Operation, Topology, VertexLayout, Viewport};
 use afterglow_gpu::{BindlessTable, Commands, Gpu, GpuError, vk};
 use afterglow_records::DrawPush;
 use hashbrown::HashMap;
@@ -11,7 +9,7 @@ use crate::bindings::{Lookup, ResolvedBindings};
 use crate::numbers::Numbers;
 use crate::passes::clear::{self, LoadOps};
 use crate::pipeline_state::PipelineRaster;
-use crate::pipelines::{PipelineKey, Pipelines, Program};
+use crate::pipelines::{PipelineKey, Pipelines, Program, Visibility};
 use crate::plan::RasterStep;
 use crate::queries::{Queries, SegmentPool};
 use crate::rectangles::Rectangles;
@@ -22,7 +20,26 @@ use crate::textures::Textures;
 use crate::window;
 
 /// What a frame's pipelines are looked up by: the fixed state's number, layout, topology, clamps.
-type FrameKey = (u32, VertexLayout, Topology, u32);
+type FrameKey = (u32, VertexLayout, Topology, u32, Visibility);
+
+/// What a draw of a traced view leaves in the visibility buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DrawMark {
+    /// What was there.
+    Kept,
+    /// The number of its surface plus 1, or 0 where nothing is traced.
+    Written(u32),
+}
+
+/// Where a traced view is drawn beside the window.
+#[derive(Clone, Copy)]
+pub(crate) struct RasterView<'a> {
+    pub(crate) visibility: vk::ImageView,
+    /// The visibility buffer is empty at first.
+    pub(crate) begins: bool,
+    /// By the frame's numbers of draws.
+    pub(crate) marks: &'a [DrawMark],
+}
 
 /// What recording draws needs from frame to frame.
 pub(crate) struct RasterState {
@@ -46,6 +63,7 @@ pub(crate) struct RasterFrame<'a> {
     pub(crate) address: u64,
     pub(crate) draws: &'a [DrawCommand],
     pub(crate) rectangles: &'a Rectangles,
+    pub(crate) view: Option<RasterView<'a>>,
 }
 
 /// Records one run of operations.
@@ -65,7 +83,7 @@ pub(crate) struct Bound {
     /// The fixed state whose numbers are set.
     fixed: Option<u32>,
     numbers: Numbers,
-    viewport: Option<u32>,
+    viewport: Option<(u32, bool)>,
     /// The bound viewport is one that draws can be seen in.
     is_visible: bool,
     index_buffer: vk::Buffer,
@@ -98,10 +116,9 @@ impl RasterPass<'_> {
         let (load, start) = clear::leading(frame, step.operations.clone(), size);
         let sets = [self.input.table.set()];
         let layout = &self.state.pipelines.draw_layout;
-        self.commands
-            .bind_sets(vk::PipelineBindPoint::GRAPHICS, layout, &sets);
+        self.commands.bind_sets(vk::PipelineBindPoint::GRAPHICS, layout, &sets);
         let commands = *self.commands;
-        rendering(&commands, self.input.target, &load, || {
+        rendering(&commands, self.input.target, self.input.view, &load, || {
             self.state.queries.resume(&commands, self.pool)?;
             self.operations(start..step.operations.end, step)?;
             self.state.queries.suspend(&commands, self.pool);
@@ -109,11 +126,7 @@ impl RasterPass<'_> {
         })
     }
 
-    fn operations(
-        &mut self,
-        range: std::ops::Range<usize>,
-        step: &RasterStep,
-    ) -> Result<(), GpuError> {
+    fn operations(&mut self, range: std::ops::Range<usize>, step: &RasterStep) -> Result<(), GpuError> {
         let (mut draw_number, mut rectangle) = (step.first_draw, step.first_pixels);
         let frame = self.input.frame;
         for operation in &frame.operations[range] {
@@ -141,9 +154,7 @@ impl RasterPass<'_> {
                 | Operation::CopyImage { .. }
                 | Operation::DropImage(_) => {}
                 // These end a run of drawing.
-                Operation::ClearAccumulation(_)
-                | Operation::CopyToImage(_)
-                | Operation::Accumulate(..) => {}
+                Operation::ClearAccumulation(_) | Operation::CopyToImage(_) | Operation::Accumulate(..) => {}
             }
         }
         Ok(())
@@ -151,15 +162,21 @@ impl RasterPass<'_> {
 
     fn draw(&mut self, draw: &Draw, number: usize) -> Result<(), GpuError> {
         let command = self.input.draws[number];
-        if command.index_count == 0 || !self.bind_viewport(draw.viewport) {
+        if command.index_count == 0
+            || !self.bind_viewport(draw.viewport, draw.topology != Topology::Triangles)
+        {
             return Ok(());
         }
         let fixed = &self.input.frame.fixed[draw.fixed as usize];
         if draw.topology == Topology::Triangles && fixed.raster.cull == Cull::FrontAndBack {
             return Ok(());
         }
-        self.bind_pipeline(draw, fixed)?;
+        let mark = self.mark(number);
+        self.bind_pipeline(draw, fixed, mark)?;
         self.bind_push(draw.bindings, draw.environment)?;
+        if let Some(DrawMark::Written(surface)) = mark {
+            self.push_surface(surface);
+        }
         let (device, raw) = (self.commands.device(), self.commands.raw());
         // SAFETY: the pipeline's state is complete; `tables` has checked that the indices lie in their buffer.
         unsafe {
@@ -168,21 +185,51 @@ impl RasterPass<'_> {
                 device.cmd_bind_index_buffer(raw, command.index_buffer, 0, vk::IndexType::UINT32);
             }
             // The instance's number tells the shader which draw it is.
-            device.cmd_draw_indexed(
-                raw,
-                command.index_count,
-                1,
-                command.first_index,
-                0,
-                number as u32,
-            );
+            device.cmd_draw_indexed(raw, command.index_count, 1, command.first_index, 0, number as u32);
         }
         Ok(())
     }
 
-    fn bind_pipeline(&mut self, draw: &Draw, fixed: &FixedState) -> Result<(), GpuError> {
+    /// What a draw leaves in the visibility buffer, if there is one.
+    fn mark(&self, number: usize) -> Option<DrawMark> {
+        let view = self.input.view?;
+        Some(view.marks.get(number).copied().unwrap_or(DrawMark::Kept))
+    }
+
+    /// How pipelines treat the visibility buffer that write nothing to it.
+    pub(crate) fn kept_visibility(&self) -> Visibility {
+        self.input.view.map_or(Visibility::Absent, |_| Visibility::Kept)
+    }
+
+    /// Sets the number that fragments write to the visibility buffer.
+    fn push_surface(&mut self, number: u32) {
+        let layout = &self.state.pipelines.draw_layout;
+        let offset = std::mem::offset_of!(DrawPush, pixels) as u32;
+        // SAFETY: the layout's push constants are a `DrawPush`.
+        unsafe {
+            self.commands.device().cmd_push_constants(
+                self.commands.raw(),
+                layout.raw(),
+                layout.stages(),
+                offset,
+                &number.to_ne_bytes(),
+            );
+        }
+    }
+
+    fn bind_pipeline(
+        &mut self,
+        draw: &Draw,
+        fixed: &FixedState,
+        mark: Option<DrawMark>,
+    ) -> Result<(), GpuError> {
         let clamps = self.clamps(draw.bindings)?;
-        let key = (draw.fixed, draw.layout, draw.topology, clamps);
+        let visibility = match mark {
+            None => Visibility::Absent,
+            Some(DrawMark::Kept) => Visibility::Kept,
+            Some(DrawMark::Written(_)) => Visibility::Written,
+        };
+        let key = (draw.fixed, draw.layout, draw.topology, clamps, visibility);
         if self.bound.key != Some(key) {
             let pipeline = match self.state.frame_pipelines.get(&key) {
                 Some(pipeline) => *pipeline,
@@ -198,12 +245,8 @@ impl RasterPass<'_> {
         Ok(())
     }
 
-    fn find_pipeline(
-        &mut self,
-        key: FrameKey,
-        fixed: &FixedState,
-    ) -> Result<vk::Pipeline, GpuError> {
-        let (_, layout, topology, clamps) = key;
+    fn find_pipeline(&mut self, key: FrameKey, fixed: &FixedState) -> Result<vk::Pipeline, GpuError> {
+        let (_, layout, topology, clamps, visibility) = key;
         let antialiased = fixed.words.global.smooth() != 0;
         let features = self.input.gpu.features();
         let pipeline = self.state.pipelines.get(&PipelineKey {
@@ -213,6 +256,7 @@ impl RasterPass<'_> {
             topology,
             clamps,
             raster: PipelineRaster::new(&fixed.raster, topology, antialiased, features),
+            visibility,
         })?;
         self.state.frame_pipelines.insert(key, pipeline);
         Ok(pipeline)
@@ -238,13 +282,15 @@ impl RasterPass<'_> {
         numbers.set(self.commands, self.input.gpu, fixed, stipple);
     }
 
-    /// Binds a viewport and its scissor. Says whether anything can be seen in it.
-    fn bind_viewport(&mut self, index: u32) -> bool {
-        if self.bound.viewport != Some(index) {
+    /// Binds a viewport and its scissor, for lines and points (`thin`) or polygons. Says whether anything can be
+    /// seen in it.
+    fn bind_viewport(&mut self, index: u32, thin: bool) -> bool {
+        if self.bound.viewport != Some((index, thin)) {
             let viewport = &self.input.frame.viewports[index as usize];
             let size = self.input.target.size;
-            let raw = window::viewport(viewport, size, self.input.gpu.limits());
-            self.bound.viewport = Some(index);
+            let raw = window::viewport(viewport, size, self.input.gpu.limits())
+                .map(|raw| if thin { window::for_thin(raw) } else { raw });
+            self.bound.viewport = Some((index, thin));
             self.bound.is_visible = raw.is_some();
             if let Some(raw) = raw {
                 self.set_viewport(raw, viewport);
@@ -264,20 +310,12 @@ impl RasterPass<'_> {
     }
 
     pub(crate) fn clamps(&mut self, bindings: u32) -> Result<u32, GpuError> {
-        let RasterState {
-            samplers, bindings: resolved, ..
-        } = &mut *self.state;
+        let RasterState { samplers, bindings: resolved, .. } = &mut *self.state;
         resolved.clamps(&mut lookup(&self.input, samplers), bindings)
     }
 
-    pub(crate) fn push_of(
-        &mut self,
-        bindings: u32,
-        environment: u32,
-    ) -> Result<DrawPush, GpuError> {
-        let RasterState {
-            samplers, bindings: resolved, ..
-        } = &mut *self.state;
+    pub(crate) fn push_of(&mut self, bindings: u32, environment: u32) -> Result<DrawPush, GpuError> {
+        let RasterState { samplers, bindings: resolved, .. } = &mut *self.state;
         let mut lookup = lookup(&self.input, samplers);
         resolved.push(&mut lookup, self.input.address, bindings, environment)
     }
@@ -285,8 +323,7 @@ impl RasterPass<'_> {
     fn bind_push(&mut self, bindings: u32, environment: u32) -> Result<(), GpuError> {
         if self.bound.push != Some((bindings, environment)) {
             let push = self.push_of(bindings, environment)?;
-            self.commands
-                .push_constants(&self.state.pipelines.draw_layout, &push);
+            self.commands.push_constants(&self.state.pipelines.draw_layout, &push);
             self.bound.push = Some((bindings, environment));
         }
         Ok(())
@@ -302,18 +339,14 @@ impl RasterPass<'_> {
 }
 
 fn lookup<'a>(input: &RasterFrame<'a>, samplers: &'a mut Samplers) -> Lookup<'a> {
-    Lookup {
-        frame: input.frame,
-        textures: input.textures,
-        samplers,
-        table: input.table,
-    }
+    Lookup { frame: input.frame, textures: input.textures, samplers, table: input.table }
 }
 
 /// Records draws to a target's images.
 fn rendering<T>(
     commands: &Commands<'_>,
     target: &Target,
+    view: Option<RasterView<'_>>,
     load: &LoadOps,
     record: impl FnOnce() -> T,
 ) -> T {
@@ -329,17 +362,20 @@ fn rendering<T>(
             .clear_value(clear.unwrap_or_default())
     };
     let depth_layout = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
-    let colors = [attachment(
-        target.color.view(),
-        vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL,
-        load.color(),
-    )];
+    let color_layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+    let nothing = view.filter(|view| view.begins).map(|_| vk::ClearValue::default());
+    let visibility = view.map_or(vk::ImageView::null(), |view| view.visibility);
+    let colors = [
+        attachment(target.color.view(), color_layout, load.color()),
+        attachment(visibility, color_layout, nothing),
+    ];
+    let colors = &colors[..if view.is_some() { 2 } else { 1 }];
     let depth = attachment(target.depth.view(), depth_layout, load.depth());
     let stencil = attachment(target.depth.view(), depth_layout, load.stencil());
     let info = vk::RenderingInfo::default()
         .render_area(window::whole(target.size))
         .layer_count(1)
-        .color_attachments(&colors)
+        .color_attachments(colors)
         .depth_attachment(&depth)
         .stencil_attachment(&stencil);
     commands.rendering(&info, record)

@@ -1,12 +1,8 @@
 //! Answers to the program's questions: pixels of the window, texels of images.
 
 use afterglow_gl::backend::{Reply, Request};
-use afterglow_gl::frame::{
-    Frame, ImageKey, ImageShape, Operation, PixelBuffer, Rect, Region, TexelFormat,
-};
-use afterglow_gpu::{
-    Access, Buffer, BufferDesc, BufferKind, Commands, Gpu, GpuError, memory_barrier, vk,
-};
+use afterglow_gl::frame::{Frame, ImageKey, ImageShape, Operation, PixelBuffer, Rect, Region, TexelFormat};
+use afterglow_gpu::{Access, Buffer, BufferDesc, BufferKind, Commands, Gpu, GpuError, memory_barrier, vk};
 
 use crate::passes::copy::{read_image, window_region};
 use crate::target::{DepthFormat, Target};
@@ -48,12 +44,7 @@ pub(crate) enum Asked {
 
 impl Question {
     /// What must be read for a request after `frame`.
-    pub(crate) fn of(
-        request: &Request,
-        frame: &Frame,
-        size: [u32; 2],
-        textures: &Textures,
-    ) -> Asked {
+    pub(crate) fn of(request: &Request, frame: &Frame, size: [u32; 2], textures: &Textures) -> Asked {
         match *request {
             Request::Pixels { buffer, rect } => {
                 let pixels = |length: i32| u64::from(length.max(0).unsigned_abs());
@@ -61,20 +52,14 @@ impl Question {
                     return Asked::Answered(Reply::Unavailable);
                 }
                 match window::clip(&rect, size) {
-                    Some(clipped) => Asked::Read(Self::Window {
-                        buffer,
-                        rect,
-                        clipped,
-                    }),
+                    Some(clipped) => Asked::Read(Self::Window { buffer, rect, clipped }),
                     None => Asked::Answered(nothing(buffer, &rect)),
                 }
             }
             Request::Texels { image, region } => {
                 let known = textures.get(image).map(|texture| texture.shape);
                 match known.or_else(|| defined_shape(frame, image)) {
-                    Some(shape) if holds(&shape, &region) => {
-                        Asked::Read(Self::Texels { image, region })
-                    }
+                    Some(shape) if holds(&shape, &region) => Asked::Read(Self::Texels { image, region }),
                     _ => Asked::Answered(Reply::Unavailable),
                 }
             }
@@ -94,27 +79,19 @@ fn defined_shape(frame: &Frame, key: ImageKey) -> Option<ImageShape> {
 impl Readback {
     pub(crate) fn new(gpu: &Gpu, question: Question) -> Result<Self, GpuError> {
         let bytes = match &question {
-            Question::Window {
-                buffer, clipped, ..
-            } => {
+            Question::Window { buffer, clipped, .. } => {
                 let each = if *buffer == PixelBuffer::Stencil { 1 } else { 4 };
                 clipped.width as usize * clipped.height as usize * each
             }
             Question::Texels { region, .. } => texel_count(region) * TEXEL_BYTES,
         };
         let desc = BufferDesc::new("readback", BufferKind::Readback, bytes as u64);
-        Ok(Self {
-            question,
-            memory: gpu.create_buffer(&desc)?,
-            bytes,
-        })
+        Ok(Self { question, memory: gpu.create_buffer(&desc)?, bytes })
     }
 
     pub(crate) fn record(&self, commands: &Commands<'_>, target: &Target, textures: &Textures) {
         match &self.question {
-            Question::Window {
-                buffer, clipped, ..
-            } => {
+            Question::Window { buffer, clipped, .. } => {
                 let (image, aspect) = match buffer {
                     PixelBuffer::Color => (&target.color, vk::ImageAspectFlags::COLOR),
                     PixelBuffer::Depth => (&target.depth, vk::ImageAspectFlags::DEPTH),
@@ -140,10 +117,7 @@ impl Readback {
                 }
             }
         }
-        commands.barriers(
-            &[memory_barrier(Access::TRANSFER_WRITE, Access::HOST_READ)],
-            &[],
-        );
+        commands.barriers(&[memory_barrier(Access::TRANSFER_WRITE, Access::HOST_READ)], &[]);
     }
 
     /// The bytes as they were read, rows of the window from the top. The device must have finished.
@@ -154,18 +128,10 @@ impl Readback {
     }
 
     /// The answer. The device must have finished.
-    pub(crate) fn reply(
-        &self,
-        depth_format: DepthFormat,
-        textures: &Textures,
-    ) -> Result<Reply, GpuError> {
+    pub(crate) fn reply(&self, depth_format: DepthFormat, textures: &Textures) -> Result<Reply, GpuError> {
         let mut bytes = self.bytes()?;
         Ok(match &self.question {
-            Question::Window {
-                buffer,
-                rect,
-                clipped,
-            } => match buffer {
+            Question::Window { buffer, rect, clipped } => match buffer {
                 PixelBuffer::Color => Reply::Color(placed(&bytes, rect, clipped, 4)),
                 PixelBuffer::Stencil => Reply::Stencil(placed(&bytes, rect, clipped, 1)),
                 PixelBuffer::Depth => {
@@ -219,9 +185,7 @@ fn depths(bytes: &[u8], maximum: u32) -> Vec<f32> {
         return words.map(f32::from_le_bytes).collect();
     }
     let greatest = f64::from(maximum);
-    words
-        .map(|word| (f64::from(u32::from_le_bytes(word) & maximum) / greatest) as f32)
-        .collect()
+    words.map(|word| (f64::from(u32::from_le_bytes(word) & maximum) / greatest) as f32).collect()
 }
 
 #[cfg(test)]
@@ -230,18 +194,8 @@ mod tests {
 
     #[test]
     fn rows_are_turned_and_what_lies_outside_is_zero() {
-        let rect = Rect {
-            x: -1,
-            y: 0,
-            width: 3,
-            height: 3,
-        };
-        let clipped = Rect {
-            x: 0,
-            y: 0,
-            width: 2,
-            height: 2,
-        };
+        let rect = Rect { x: -1, y: 0, width: 3, height: 3 };
+        let clipped = Rect { x: 0, y: 0, width: 2, height: 2 };
         let placed = placed(&[3, 4, 1, 2], &rect, &clipped, 1);
         assert_eq!(placed, [0, 1, 2, 0, 3, 4, 0, 0, 0]);
     }

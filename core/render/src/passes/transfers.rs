@@ -7,12 +7,7 @@ use crate::retained::{RangeCopy, record_copies};
 use crate::textures::{Texture, Textures};
 
 /// Makes a frame's new images ready, and clears those that it does not fill.
-pub(crate) fn record_first(
-    commands: &Commands<'_>,
-    plan: &Plan,
-    textures: &Textures,
-    ranges: &[RangeCopy],
-) {
+pub(crate) fn record_first(commands: &Commands<'_>, plan: &Plan, textures: &Textures, ranges: &[RangeCopy]) {
     record_copies(commands, ranges);
     let new = |(image, clear): &(_, bool)| Some((textures.get(*image)?, *clear));
     let new: Vec<(&Texture, bool)> = plan.defined.iter().filter_map(new).collect();
@@ -31,22 +26,13 @@ pub(crate) fn record(commands: &Commands<'_>, transfers: &[Transfer], textures: 
     for transfer in transfers {
         match transfer {
             Transfer::Wait => wait(commands),
-            Transfer::Upload {
-                image,
-                region,
-                from,
-            } => {
+            Transfer::Upload { image, region, from } => {
                 if let Some(texture) = textures.get(*image) {
                     let region = texture.buffer_copy(region, from.offset);
                     write_image(commands, from.buffer, texture, &[region]);
                 }
             }
-            Transfer::Copy {
-                from,
-                region,
-                to,
-                to_level,
-            } => {
+            Transfer::Copy { from, region, to, to_level } => {
                 if let (Some(from), Some(to)) = (textures.get(*from), textures.get(*to)) {
                     let source = from.subresource(region.level, region.layer);
                     let target = to.subresource(*to_level, region.layer);
@@ -89,11 +75,7 @@ fn image_copy(
         src_offset: vk::Offset3D { x, y, z },
         dst_subresource: target,
         dst_offset: vk::Offset3D { x, y, z },
-        extent: vk::Extent3D {
-            width,
-            height,
-            depth,
-        },
+        extent: vk::Extent3D { width, height, depth },
     }
 }
 

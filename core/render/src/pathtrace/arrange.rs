@@ -111,9 +111,7 @@ impl Arranger<'_> {
     fn role(&mut self, operation: &Operation, class: Option<Class>) -> Role {
         match operation {
             Operation::Draw(draw) => self.draw_role(draw, class.unwrap_or(Class::Undecided)),
-            Operation::Clear(clear) if clear.color.is_none() && clear.depth.is_none() => {
-                Role::Neutral
-            }
+            Operation::Clear(clear) if clear.color.is_none() && clear.depth.is_none() => Role::Neutral,
             Operation::Clear(_)
             | Operation::CopyPixels(_)
             | Operation::CopyToImage(_)
@@ -151,10 +149,7 @@ impl Arranger<'_> {
             Class::Dropped => Role::Dropped,
             _ if !writes_color => Role::Mark(Mark::Colorless),
             Class::Layer => Role::Mark(Mark::Layer),
-            _ if class.is_traced()
-                && draw.topology == Topology::Triangles
-                && raster.logic_op.is_none() =>
-            {
+            _ if class.is_traced() && draw.topology == Topology::Triangles && raster.logic_op.is_none() => {
                 Role::Mark(Mark::Traced)
             }
             _ if self.is_counting => Role::Mark(Mark::Solid),
@@ -176,9 +171,7 @@ impl Arranger<'_> {
     /// Orders the operations since the last barrier.
     fn close(&mut self) {
         let segment = std::mem::take(&mut self.segment);
-        let is_surface = |(_, role): &(usize, Role)| {
-            matches!(role, Role::Mark(Mark::Traced | Mark::Layer))
-        };
+        let is_surface = |(_, role): &(usize, Role)| matches!(role, Role::Mark(Mark::Traced | Mark::Layer));
         let is_traced = |(_, role): &(usize, Role)| *role == Role::Mark(Mark::Traced);
         let first = segment.iter().position(is_traced);
         let last = segment.iter().rposition(is_surface);
@@ -230,10 +223,7 @@ impl Arrangement {
     /// Puts a frame's operations, and the operations that a scene's verdicts name, in this order.
     pub(crate) fn apply(&self, frame: &mut Frame, scene: &mut Scene) {
         let mut places = vec![None; frame.operations.len()];
-        let mut operations: Vec<_> = std::mem::take(&mut frame.operations)
-            .into_iter()
-            .map(Some)
-            .collect();
+        let mut operations: Vec<_> = std::mem::take(&mut frame.operations).into_iter().map(Some).collect();
         for (place, &index) in self.order.iter().enumerate() {
             places[index] = Some(place as u32);
             frame.operations.extend(operations[index].take());

@@ -46,22 +46,14 @@ impl GeometryReader {
         let part = retained_part(frame, draw);
         if let Some((hash, drawn)) = part.and_then(|part| self.known.get_mut(&part)) {
             *drawn = self.frame;
-            return Triangles {
-                hash: *hash,
-                count,
-                corners: 0..0,
-            };
+            return Triangles { hash: *hash, count, corners: 0..0 };
         }
         let corners = self.corners(frame, draw);
         let hash = xxh3_64(bytemuck::cast_slice(&self.corners[corners.clone()]));
         if let Some(part) = part {
             self.known.insert(part, (hash, self.frame));
         }
-        Triangles {
-            hash,
-            count,
-            corners,
-        }
+        Triangles { hash, count, corners }
     }
 
     /// Reads the corners of triangles that were not needed before.
@@ -101,11 +93,7 @@ impl<'a> PositionReader<'a> {
             Format::F4 => 4,
             Format::Absent | Format::Unorm8x4 => 0,
         };
-        Self {
-            words,
-            stride: draw.layout.stride(),
-            components,
-        }
+        Self { words, stride: draw.layout.stride(), components }
     }
 
     /// A point at infinity, or one that is not there, is not a number: it makes no triangle.

@@ -30,20 +30,12 @@ fn light_source(light: &SceneLight, origin: DVec3, displacement: Vec3) -> LightS
         spot_exponent: 0.0,
     };
     match light.shape {
-        LightShape::Directional {
-            to_light,
-            angular_radius,
-        } => LightSource {
+        LightShape::Directional { to_light, angular_radius } => LightSource {
             position: (to_light + displacement).normalize_or(to_light).to_array(),
             radius: angular_radius.tan(),
             ..common
         },
-        LightShape::Point {
-            position,
-            radius,
-            attenuation,
-            spot,
-        } => {
+        LightShape::Point { position, radius, attenuation, spot } => {
             let place = (position + displacement).as_dvec3() - origin;
             let (axis, cos_cutoff, exponent) = spot.unwrap_or((Vec3::ZERO, -1.0, 0.0));
             LightSource {

@@ -47,13 +47,7 @@ pub(crate) struct Meshes {
 
 impl Meshes {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            slabs: Slabs::new(gpu),
-            entries: HashMap::new(),
-            frame: 0,
-            copies: Vec::new(),
-            built: 0,
-        }
+        Self { slabs: Slabs::new(gpu), entries: HashMap::new(), frame: 0, copies: Vec::new(), built: 0 }
     }
 
     /// A new frame begins: what was not used for long goes.
@@ -100,11 +94,7 @@ impl Meshes {
             true => Quality::Good,
             false => Quality::Fast,
         };
-        let input = BlasInput {
-            positions: corners,
-            indices: &indices,
-            attributes,
-        };
+        let input = BlasInput { positions: corners, indices: &indices, attributes };
         self.built += attributes.len();
         let blas = build_blas_with(&input, quality)
             .map_err(|error| tracing::warn!("a mesh is left out: {error}"))
@@ -112,22 +102,14 @@ impl Meshes {
             .filter(|blas| blas.triangle_count > 0);
         let entry = match blas {
             Some(blas) => self.place(&blas, arena)?,
-            None => Entry {
-                mesh: None,
-                part: None,
-                used: self.frame,
-            },
+            None => Entry { mesh: None, part: None, used: self.frame },
         };
         self.entries.insert(content, entry);
         Ok(())
     }
 
     /// Brings words that only this frame reads to the device. Returns their address.
-    pub(crate) fn upload_once(
-        &mut self,
-        words: &[u32],
-        arena: &mut UploadArena,
-    ) -> Result<u64, GpuError> {
+    pub(crate) fn upload_once(&mut self, words: &[u32], arena: &mut UploadArena) -> Result<u64, GpuError> {
         let part = self.upload(words, arena)?;
         let address = part.address;
         self.slabs.free(part);
@@ -136,27 +118,15 @@ impl Meshes {
 
     fn place(&mut self, blas: &Blas, arena: &mut UploadArena) -> Result<Entry, GpuError> {
         let part = self.upload(&blas.words, arena)?;
-        let mesh = Mesh {
-            address: part.address,
-            bounds: blas.bounds,
-        };
-        Ok(Entry {
-            mesh: Some(mesh),
-            part: Some(part),
-            used: self.frame,
-        })
+        let mesh = Mesh { address: part.address, bounds: blas.bounds };
+        Ok(Entry { mesh: Some(mesh), part: Some(part), used: self.frame })
     }
 
     fn upload(&mut self, words: &[u32], arena: &mut UploadArena) -> Result<Part, GpuError> {
         let bytes: &[u8] = bytemuck::cast_slice(words);
         let part = self.slabs.allocate(bytes.len() as u64)?;
         if let Some((to, offset)) = self.slabs.place(&part) {
-            self.copies.push(MeshCopy {
-                from: arena.push(bytes)?,
-                to,
-                offset,
-                bytes: bytes.len() as u64,
-            });
+            self.copies.push(MeshCopy { from: arena.push(bytes)?, to, offset, bytes: bytes.len() as u64 });
         }
         Ok(part)
     }
@@ -165,16 +135,11 @@ impl Meshes {
 /// Records copies of structures to their places.
 pub(crate) fn record_copies(commands: &Commands<'_>, copies: &[MeshCopy]) {
     for copy in copies.iter().filter(|copy| copy.bytes > 0) {
-        let regions = [vk::BufferCopy {
-            src_offset: copy.from.offset,
-            dst_offset: copy.offset,
-            size: copy.bytes,
-        }];
+        let regions =
+            [vk::BufferCopy { src_offset: copy.from.offset, dst_offset: copy.offset, size: copy.bytes }];
         // SAFETY: both buffers are this device's and hold these bytes; the target's are allocated for this copy.
         unsafe {
-            commands
-                .device()
-                .cmd_copy_buffer(commands.raw(), copy.from.buffer, copy.to, &regions);
+            commands.device().cmd_copy_buffer(commands.raw(), copy.from.buffer, copy.to, &regions);
         }
     }
 }

@@ -37,12 +37,7 @@ pub(crate) struct Slabs {
 
 impl Slabs {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            gpu: gpu.clone(),
-            slabs: Vec::new(),
-            freed: Vec::new(),
-            frame: 0,
-        }
+        Self { gpu: gpu.clone(), slabs: Vec::new(), freed: Vec::new(), frame: 0 }
     }
 
     /// A new frame begins: what was freed long enough ago can be used again.
@@ -65,11 +60,7 @@ impl Slabs {
             let Some(entry) = entry else { continue };
             if let Ok(bytes) = entry.free.allocate_range(bytes) {
                 let address = entry.buffer.address() + bytes.start;
-                return Ok(Part {
-                    slab,
-                    bytes,
-                    address,
-                });
+                return Ok(Part { slab, bytes, address });
             }
         }
         self.allocate_in_new(bytes)
@@ -99,11 +90,7 @@ impl Slabs {
             self.slabs.push(None);
         }
         self.slabs[slab] = Some(Slab { buffer, free });
-        Ok(Part {
-            slab,
-            bytes,
-            address,
-        })
+        Ok(Part { slab, bytes, address })
     }
 
     fn reclaim(&mut self, part: &Part) {

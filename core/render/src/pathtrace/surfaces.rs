@@ -2,8 +2,7 @@
 
 use afterglow_gl::frame::{Compare, Draw, FixedState, Frame, StateWords};
 use afterglow_records::{
-    BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, SurfaceDraw,
-    SurfaceKind,
+    BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, SurfaceDraw, SurfaceKind,
 };
 use afterglow_scene::{Class, LightOrigin, Scene, Verdict};
 use hashbrown::HashMap;
@@ -138,13 +137,13 @@ impl LayerFinder {
         self.ends.insert((triangles.hash, triangles.count), surface);
     }
 
+    /// Whether there is a surface of these triangles.
+    pub(crate) fn has(&self, triangles: &Triangles) -> bool {
+        self.ends.contains_key(&(triangles.hash, triangles.count))
+    }
+
     /// Hangs a layer onto the surface below it. Says whether there is one.
-    pub(crate) fn link(
-        &mut self,
-        surfaces: &mut [SurfaceDraw],
-        layer: u32,
-        triangles: &Triangles,
-    ) -> bool {
+    pub(crate) fn link(&mut self, surfaces: &mut [SurfaceDraw], layer: u32, triangles: &Triangles) -> bool {
         let Some(end) = self.ends.get_mut(&(triangles.hash, triangles.count)) else {
             return false;
         };
@@ -163,11 +162,7 @@ mod tests {
 
     #[test]
     fn layers_hang_onto_the_last_draw_of_the_same_triangles() {
-        let triangles = |hash| Triangles {
-            hash,
-            count: 2,
-            corners: 0..0,
-        };
+        let triangles = |hash| Triangles { hash, count: 2, corners: 0..0 };
         let mut surfaces = vec![SurfaceDraw::zeroed(); 4];
         for (number, surface) in surfaces.iter_mut().enumerate() {
             surface.next_layer = number as u32;

@@ -38,6 +38,8 @@ pub(crate) struct World {
     pub(crate) tlas: u64,
     pub(crate) members: u64,
     pub(crate) instances: u32,
+    /// The longest side of its box.
+    pub(crate) extent: f32,
 }
 
 /// Draws that make one mesh.
@@ -61,10 +63,7 @@ pub(crate) struct WorldBuilder {
 
 impl WorldBuilder {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self {
-            meshes: Meshes::new(gpu),
-            geometry: GeometryReader::default(),
-        }
+        Self { meshes: Meshes::new(gpu), geometry: GeometryReader::default() }
     }
 
     pub(crate) fn begin_frame(&mut self) {
@@ -114,6 +113,10 @@ impl WorldBuilder {
             tlas: self.meshes.upload_once(&tlas.words, arena)?,
             members: arena.push_table(&members)?.address,
             instances: tlas.instance_count,
+            extent: match tlas.bounds.is_empty() {
+                true => 0.0,
+                false => (tlas.bounds.max - tlas.bounds.min).max_element(),
+            },
         })
     }
 
@@ -208,10 +211,8 @@ fn member_count(traced: &Traced<'_>) -> usize {
 
 fn members_of(traced: &Traced<'_>) -> impl Iterator<Item = MeshMember> + use<> {
     let surface = traced.surface;
-    (0..member_count(traced) as u32).map(move |member| MeshMember {
-        draw: surface,
-        first_triangle: member * MOST_TRIANGLES,
-    })
+    (0..member_count(traced) as u32)
+        .map(move |member| MeshMember { draw: surface, first_triangle: member * MOST_TRIANGLES })
 }
 
 #[cfg(test)]

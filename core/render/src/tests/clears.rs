@@ -4,13 +4,8 @@ use afterglow_gl::frame::{Clear, Compare, Depth, Operation, Rect, Stencil, Stenc
 
 use crate::testing::*;
 
-const COLOR: Clear = Clear {
-    color: Some([1.0, 0.0, 0.0, 1.0]),
-    color_mask: 0xf,
-    depth: None,
-    stencil: None,
-    scissor: None,
-};
+const COLOR: Clear =
+    Clear { color: Some([1.0, 0.0, 0.0, 1.0]), color_mask: 0xf, depth: None, stencil: None, scissor: None };
 
 #[test]
 fn a_clear_in_the_middle_keeps_its_place() {
@@ -41,11 +36,7 @@ fn a_whole_clear_hides_what_was_drawn() {
 fn masked_components_stay() {
     let mut frame = FrameBuilder::new(4, 4);
     frame.clear([0.0, 1.0, 0.0, 1.0]);
-    frame.push(Operation::Clear(Clear {
-        color: Some([1.0, 0.0, 1.0, 0.0]),
-        color_mask: 0b0101,
-        ..COLOR
-    }));
+    frame.push(Operation::Clear(Clear { color: Some([1.0, 0.0, 1.0, 0.0]), color_mask: 0b0101, ..COLOR }));
     assert_eq!(frame.picture().count(WHITE), 16);
 }
 
@@ -69,11 +60,7 @@ fn depth_clears_reach_their_scissor() {
 
 #[test]
 fn stencil_clears_write_the_masks_bits() {
-    let stencil = |value, mask| Clear {
-        color: None,
-        stencil: Some((value, mask)),
-        ..COLOR
-    };
+    let stencil = |value, mask| Clear { color: None, stencil: Some((value, mask)), ..COLOR };
     let mut frame = FrameBuilder::new(4, 4);
     frame.clear([0.0; 4]);
     frame.push(Operation::Clear(stencil(0xff, u32::MAX)));

@@ -1,8 +1,6 @@
 //! Operations on fragments: blending, depth, stencil, alpha test, logic, fog.
 
-use afterglow_gl::frame::{
-    Blend, BlendEquation, BlendFactor, Compare, Depth, Stencil, StencilOp,
-};
+use afterglow_gl::frame::{Blend, BlendEquation, BlendFactor, Compare, Depth, Stencil, StencilOp};
 
 use crate::testing::*;
 

@@ -1,8 +1,6 @@
 //! Vertex lighting against the specification's equation, computed here.
 
-use afterglow_gl::frame::{
-    Format, Light, Lights, Material, MaterialFace, Slot, Topology, VertexLayout,
-};
+use afterglow_gl::frame::{Format, Light, Lights, Material, MaterialFace, Slot, Topology, VertexLayout};
 use bytemuck::Zeroable;
 
 use crate::testing::*;
@@ -85,7 +83,10 @@ fn lit(light: &Light) -> FrameBuilder {
     let mut lights = Lights::zeroed();
     lights.lights[3] = *light;
     frame.frame.lights.push(lights);
-    frame.frame.materials.push(Material { faces: [face(), MaterialFace { diffuse: [0.0, 1.0, 0.0, 1.0], ..face() }] });
+    frame
+        .frame
+        .materials
+        .push(Material { faces: [face(), MaterialFace { diffuse: [0.0, 1.0, 0.0, 1.0], ..face() }] });
     let words = &mut frame.fixed.words.global;
     words.set_lighting(1);
     words.set_lights(1 << 3);
@@ -181,7 +182,13 @@ fn the_back_has_its_own_material() {
 
 #[test]
 fn the_colour_takes_the_place_of_the_material() {
-    let ambient_only = Light { diffuse: [0.0; 4], specular: [0.0; 4], ambient: [1.0; 4], position: [0.0, 0.0, 1.0, 0.0], ..light() };
+    let ambient_only = Light {
+        diffuse: [0.0; 4],
+        specular: [0.0; 4],
+        ambient: [1.0; 4],
+        position: [0.0, 0.0, 1.0, 0.0],
+        ..light()
+    };
     let mut frame = lit(&ambient_only);
     let words = &mut frame.fixed.words.global;
     words.set_color_material(1);

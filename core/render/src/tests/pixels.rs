@@ -2,15 +2,20 @@
 
 use afterglow_gl::backend::{Reply, Request};
 use afterglow_gl::frame::{
-    AccumulateOp, Compare, Depth, Operation, PixelBuffer, PixelContent, PixelCopy, PixelRectangle,
-    Rect,
+    AccumulateOp, Compare, Depth, Operation, PixelBuffer, PixelContent, PixelCopy, PixelRectangle, Rect,
 };
 
 use crate::testing::*;
 
 const ALL: Rect = Rect { x: 0, y: 0, width: 8, height: 8 };
 
-fn pixels(frame: &mut FrameBuilder, content: PixelContent, size: [u32; 2], position: [f32; 2], zoom: [f32; 2]) {
+fn pixels(
+    frame: &mut FrameBuilder,
+    content: PixelContent,
+    size: [u32; 2],
+    position: [f32; 2],
+    zoom: [f32; 2],
+) {
     let state = frame.state();
     frame.push(Operation::Pixels(Box::new(PixelRectangle {
         content,

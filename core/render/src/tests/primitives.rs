@@ -1,8 +1,8 @@
 //! Points, lines and polygons: where they are, which side they show.
 
 use afterglow_gl::frame::{
-    ClipPlanes, Cull, Format, Plane, Rect, RetainedRange, Slot, Topology, VertexLayout,
-    VertexSource, Operation,
+    ClipPlanes, Cull, Format, Operation, Plane, Rect, RetainedRange, Slot, Topology, VertexLayout,
+    VertexSource,
 };
 use bytemuck::Zeroable;
 
@@ -94,9 +94,8 @@ fn flat_shading_takes_the_first_vertex() {
     frame.fixed.words.global.set_flat_shade(1);
     let corners = [[-1.0, -1.0], [3.0, -1.0], [-1.0, 3.0]];
     let colors = [GREEN, RED, BLUE];
-    let vertex = |([x, y], color): ([f32; 2], [u8; 4])| {
-        [x.to_bits(), y.to_bits(), 0, u32::from_le_bytes(color)]
-    };
+    let vertex =
+        |([x, y], color): ([f32; 2], [u8; 4])| [x.to_bits(), y.to_bits(), 0, u32::from_le_bytes(color)];
     let words: Vec<u32> = corners.into_iter().zip(colors).flat_map(vertex).collect();
     frame.draw(POSITION_COLOR, Topology::Triangles, &words, &[0, 1, 2]);
     assert_eq!(frame.picture().count(GREEN), 64);

@@ -10,16 +10,12 @@ fn pixels_come_from_below_and_outside_is_zero() {
     let mut frame = FrameBuilder::new(4, 4);
     frame.clear([0.0, 0.0, 1.0, 1.0]);
     frame.quad([-1.0, -1.0], [1.0, -0.5], 0.0, RED);
-    let request = Request::Pixels {
-        buffer: PixelBuffer::Color,
-        rect: Rect { x: 3, y: 0, width: 2, height: 2 },
-    };
+    let request =
+        Request::Pixels { buffer: PixelBuffer::Color, rect: Rect { x: 3, y: 0, width: 2, height: 2 } };
     let reply = renderer().execute_and_answer(&frame.frame, &request).unwrap();
     assert_eq!(reply, Reply::Color([RED, [0; 4], BLUE, [0; 4]].concat()));
-    let outside = Request::Pixels {
-        buffer: PixelBuffer::Depth,
-        rect: Rect { x: 9, y: 9, width: 1, height: 2 },
-    };
+    let outside =
+        Request::Pixels { buffer: PixelBuffer::Depth, rect: Rect { x: 9, y: 9, width: 1, height: 2 } };
     let reply = renderer().execute_and_answer(&frame.frame, &outside).unwrap();
     assert_eq!(reply, Reply::Depth(vec![0.0; 2]));
     assert_valid();

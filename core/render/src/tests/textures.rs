@@ -1,9 +1,9 @@
 //! Texture images, filtering and borders, environments, generated coordinates, copies from the window.
 
 use afterglow_gl::frame::{
-    BaseFormat, CombineFunction, CombineSource, Dimension, EnvMode, Frame, ImageCopy, ImageKey,
-    ImageShape, ImageUpload, Matrix, Operation, Rect, Region, Sampler, TexGen, TexelFormat,
-    TextureBinding, TextureMatrices, Topology, Wrap,
+    BaseFormat, CombineFunction, CombineSource, Dimension, EnvMode, Frame, ImageCopy, ImageKey, ImageShape,
+    ImageUpload, Matrix, Operation, Rect, Region, Sampler, TexGen, TexelFormat, TextureBinding,
+    TextureMatrices, Topology, Wrap,
 };
 use bytemuck::Zeroable;
 
@@ -12,12 +12,7 @@ use crate::testing::*;
 const CHECKS: [[u8; 4]; 4] = [RED, GREEN, BLUE, WHITE];
 
 fn region(x: u32, y: u32, width: u32, height: u32) -> Region {
-    Region {
-        level: 0,
-        layer: 0,
-        offset: [x, y, 0],
-        extent: [width, height, 1],
-    }
+    Region { level: 0, layer: 0, offset: [x, y, 0], extent: [width, height, 1] }
 }
 
 #[test]
@@ -92,10 +87,7 @@ fn levels_are_chosen_by_size() {
     for (level, color, side) in [(0, RED, 8_u32), (1, GREEN, 4)] {
         frame.push(Operation::Upload(ImageUpload {
             image,
-            region: Region {
-                level,
-                ..region(0, 0, side, side)
-            },
+            region: Region { level, ..region(0, 0, side, side) },
             texels: color.repeat((side * side) as usize).into(),
         }));
     }
@@ -192,9 +184,7 @@ fn coordinates_are_generated_and_transformed() {
     frame.fixed.words.units[0].set_gen_t(2);
     frame.current.texture[0].coefficients = [0.0, 0.0, 0.0, 1.0];
     frame.fill(0.0, WHITE);
-    let corners = |picture: &Picture| {
-        [(0, 0), (3, 0), (0, 3), (3, 3)].map(|(x, y)| picture.at(x, y))
-    };
+    let corners = |picture: &Picture| [(0, 0), (3, 0), (0, 3), (3, 3)].map(|(x, y)| picture.at(x, y));
     assert_eq!(corners(&frame.picture()), CHECKS);
 
     // Moves half the texture to the right, by a matrix that also doubles q.
@@ -357,10 +347,8 @@ fn depth_becomes_a_texture_and_is_compared() {
     let mut frame = FrameBuilder::new(4, 4);
     let image = frame.define([4, 4], BaseFormat::Depth);
     frame.clear([0.0; 4]);
-    frame.fixed.raster.depth = Some(afterglow_gl::frame::Depth {
-        compare: afterglow_gl::frame::Compare::Always,
-        write: true,
-    });
+    frame.fixed.raster.depth =
+        Some(afterglow_gl::frame::Depth { compare: afterglow_gl::frame::Compare::Always, write: true });
     frame.quad([-1.0, -1.0], [0.0, 1.0], 0.0, WHITE);
     frame.fixed.raster.depth = None;
     frame.push(Operation::CopyToImage(ImageCopy {

@@ -33,12 +33,7 @@ impl Blocks {
             .name("trace-decoder".into())
             .spawn(move || decode(decoder, &sender, &reusable))
             .map_err(TraceError::Io)?;
-        Ok(Self {
-            container,
-            messages,
-            used,
-            received: 0,
-        })
+        Ok(Self { container, messages, used, received: 0 })
     }
 
     /// The next block, which is not empty, in exchange for the one parsed before.
@@ -62,11 +57,7 @@ impl Blocks {
             Err(DecodeError::Io(error)) => Stop::Failed(TraceError::Io(error).into()),
             Err(DecodeError::Corrupt(source)) => {
                 let (container, offset) = (self.container, self.received);
-                let error = TraceError::Container {
-                    container,
-                    offset,
-                    source,
-                };
+                let error = TraceError::Container { container, offset, source };
                 Stop::Failed(error.into())
             }
         }
@@ -74,11 +65,7 @@ impl Blocks {
 }
 
 /// Sends all blocks, then how the stream ended; gives up when nobody listens any more.
-fn decode(
-    mut decoder: Box<dyn Decode>,
-    sender: &SyncSender<Message>,
-    reusable: &Receiver<Vec<u8>>,
-) {
+fn decode(mut decoder: Box<dyn Decode>, sender: &SyncSender<Message>, reusable: &Receiver<Vec<u8>>) {
     loop {
         let mut block = reusable.try_recv().unwrap_or_default();
         let result = decoder.next_block(&mut block);

@@ -49,9 +49,7 @@ fn detect(prefix: &[u8]) -> Result<Container, TraceError> {
         [] => Err(TraceError::NotATrace),
         _ if prefix.starts_with(&snappy::MAGIC) => Ok(Container::Snappy),
         _ if prefix.starts_with(&GZIP_MAGIC) => Ok(Container::Gzip),
-        _ if prefix.starts_with(&ZSTANDARD_MAGIC) => {
-            Err(TraceError::UnsupportedContainer("Zstandard"))
-        }
+        _ if prefix.starts_with(&ZSTANDARD_MAGIC) => Err(TraceError::UnsupportedContainer("Zstandard")),
         _ if is_zlib(prefix) => Ok(Container::Zlib),
         _ if looks_raw(prefix).unwrap_or(true) => Ok(Container::Raw),
         _ => Ok(Container::Brotli),
@@ -85,11 +83,7 @@ fn looks_raw(prefix: &[u8]) -> Option<bool> {
     if bytes.next()? != format::event::ENTER {
         return Some(false);
     }
-    let numbers = if version >= format::VERSION_THREAD_IN_ENTER {
-        2
-    } else {
-        1
-    };
+    let numbers = if version >= format::VERSION_THREAD_IN_ENTER { 2 } else { 1 };
     for _ in 0..numbers {
         while bytes.next()? >= 0x80 {}
     }
@@ -100,12 +94,7 @@ fn looks_raw(prefix: &[u8]) -> Option<bool> {
 /// Whether a string of fewer than 128 bytes is printable, as far as it goes.
 fn is_name(bytes: &mut impl Iterator<Item = u8>, length: u8) -> Option<bool> {
     let plausible = (1..0x80).contains(&length);
-    Some(
-        plausible
-            && bytes
-                .take(length.into())
-                .all(|byte| byte.is_ascii_graphic()),
-    )
+    Some(plausible && bytes.take(length.into()).all(|byte| byte.is_ascii_graphic()))
 }
 
 #[cfg(test)]
@@ -121,10 +110,7 @@ mod tests {
             assert_eq!(of(&[0x78, flags, 0]), Container::Zlib);
         }
         assert_eq!(of(b"\x06\x06\x0cprocess.name"), Container::Raw);
-        assert_eq!(
-            of(b"\x06\x05\x00\x00\x00\x81\x01\x07glBegin"),
-            Container::Raw
-        );
+        assert_eq!(of(b"\x06\x05\x00\x00\x00\x81\x01\x07glBegin"), Container::Raw);
         assert_eq!(of(b"\x02\x00\x05\x07glBegin"), Container::Raw);
         assert_eq!(of(&[0xcf, 0xff, 0xff, 0x7f]), Container::Brotli);
         assert_eq!(of(b"\x02\x01\x05\x07glBegin"), Container::Brotli);
@@ -135,9 +121,6 @@ mod tests {
     fn what_is_no_trace_is_refused() {
         assert!(matches!(detect(b""), Err(TraceError::NotATrace)));
         let zstandard = detect(&[0x28, 0xb5, 0x2f, 0xfd, 0]);
-        assert!(matches!(
-            zstandard,
-            Err(TraceError::UnsupportedContainer("Zstandard"))
-        ));
+        assert!(matches!(zstandard, Err(TraceError::UnsupportedContainer("Zstandard"))));
     }
 }

@@ -51,12 +51,7 @@ impl InflateDecoder {
     }
 
     pub fn zlib(source: Source) -> Self {
-        Self {
-            source,
-            inflate: Decompress::new(true),
-            state: State::Data,
-            crc: None,
-        }
+        Self { source, inflate: Decompress::new(true), state: State::Data, crc: None }
     }
 
     /// Decodes until `output` is full or the stream ends; `filled` counts the bytes, whether or not all goes well.

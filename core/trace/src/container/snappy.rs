@@ -16,10 +16,7 @@ pub(super) struct SnappyDecoder {
 
 impl SnappyDecoder {
     pub fn new(source: Source) -> Self {
-        Self {
-            source,
-            compressed: Vec::new(),
-        }
+        Self { source, compressed: Vec::new() }
     }
 
     /// Compressed bytes of the next chunk; `None` at the end of the file.
@@ -31,9 +28,7 @@ impl SnappyDecoder {
             4 => match u32::from_le_bytes(bytes) {
                 // A file system may have filled the tail of a file that was never written with zeros.
                 0 => Err(DecodeError::Truncated),
-                length if length > limits::SNAPPY_CHUNK => {
-                    Err(DecodeError::corrupt("overlong chunk"))
-                }
+                length if length > limits::SNAPPY_CHUNK => Err(DecodeError::corrupt("overlong chunk")),
                 length => Ok(Some(length)),
             },
             _ => Err(DecodeError::Truncated),

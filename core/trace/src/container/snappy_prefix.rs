@@ -53,12 +53,7 @@ fn element(rest: &mut &[u8], output: &mut Vec<u8>, limit: usize) -> Option<()> {
 fn little_endian(rest: &mut &[u8], bytes: usize) -> Option<usize> {
     let (number, tail) = rest.split_at_checked(bytes)?;
     *rest = tail;
-    Some(
-        number
-            .iter()
-            .rev()
-            .fold(0, |value, &byte| value << 8 | usize::from(byte)),
-    )
+    Some(number.iter().rev().fold(0, |value, &byte| value << 8 | usize::from(byte)))
 }
 
 fn literal(rest: &mut &[u8], length: usize, output: &mut Vec<u8>, limit: usize) -> Option<()> {
@@ -85,9 +80,7 @@ mod tests {
     use super::*;
 
     fn sample() -> Vec<u8> {
-        let mut data: Vec<u8> = (0..70_000u32)
-            .map(|i| (i.wrapping_mul(i) >> 9) as u8)
-            .collect();
+        let mut data: Vec<u8> = (0..70_000u32).map(|i| (i.wrapping_mul(i) >> 9) as u8).collect();
         data.extend([7; 5000]);
         data.extend_from_within(100..40_000);
         data

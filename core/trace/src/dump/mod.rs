@@ -33,11 +33,7 @@ pub struct Style {
 impl Default for Style {
     /// As apitrace: numbers and names.
     fn default() -> Self {
-        Self {
-            numbers: true,
-            threads: false,
-            names: true,
-        }
+        Self { numbers: true, threads: false, names: true }
     }
 }
 
@@ -53,18 +49,11 @@ pub struct CallLine<'a> {
 impl<'a> CallLine<'a> {
     /// In the default style.
     pub fn new(call: &'a Call, signatures: &'a Signatures) -> Self {
-        Self {
-            call,
-            signatures,
-            style: Style::default(),
-        }
+        Self { call, signatures, style: Style::default() }
     }
 
     fn value(&self, value: &'a Value) -> ValueText<'a> {
-        ValueText {
-            value,
-            signatures: self.signatures,
-        }
+        ValueText { value, signatures: self.signatures }
     }
 
     fn arguments(&self, f: &mut Formatter<'_>) -> fmt::Result {
@@ -166,15 +155,11 @@ impl Display for ValueText<'_> {
             Value::Double(value) => General::double(*value).fmt(f),
             Value::String(bytes) => quote(f, bytes),
             Value::Blob(bytes) => write!(f, "blob({})", bytes.len()),
-            Value::Enum { signature, value } => {
-                match self.signatures.enumeration(*signature).name(*value) {
-                    Some(name) => f.write_str(name),
-                    None => value.fmt(f),
-                }
-            }
-            Value::Bitmask { signature, value } => {
-                flags(f, self.signatures.bitmask(*signature), *value)
-            }
+            Value::Enum { signature, value } => match self.signatures.enumeration(*signature).name(*value) {
+                Some(name) => f.write_str(name),
+                None => value.fmt(f),
+            },
+            Value::Bitmask { signature, value } => flags(f, self.signatures.bitmask(*signature), *value),
             Value::Array(values) => self.array(f, values),
             Value::Struct(structure) => {
                 f.write_str("{")?;

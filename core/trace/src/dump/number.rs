@@ -12,18 +12,12 @@ pub(super) struct General {
 impl General {
     /// Seven digits, which tell nearly all floats apart.
     pub fn float(value: f32) -> Self {
-        Self {
-            value: value.into(),
-            digits: f32::DIGITS as i32 + 1,
-        }
+        Self { value: value.into(), digits: f32::DIGITS as i32 + 1 }
     }
 
     /// Sixteen digits.
     pub fn double(value: f64) -> Self {
-        Self {
-            value,
-            digits: f64::DIGITS as i32 + 1,
-        }
+        Self { value, digits: f64::DIGITS as i32 + 1 }
     }
 }
 

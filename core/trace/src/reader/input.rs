@@ -20,12 +20,7 @@ pub(super) struct Input {
 
 impl Input {
     pub fn new(blocks: Blocks) -> Self {
-        Self {
-            blocks,
-            block: Vec::new(),
-            at: 0,
-            start: 0,
-        }
+        Self { blocks, block: Vec::new(), at: 0, start: 0 }
     }
 
     /// Decompressed bytes read so far.

@@ -40,25 +40,17 @@ impl TraceReader {
     /// Opens a file and reads its header.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, TraceError> {
         let path = path.as_ref();
-        let file = File::open(path).map_err(|source| TraceError::Open {
-            path: path.into(),
-            source,
-        })?;
+        let file = File::open(path).map_err(|source| TraceError::Open { path: path.into(), source })?;
         Self::from_reader(file)
     }
 
     /// Reads the header of a trace that comes from anywhere; `source` needs no buffer.
     pub fn from_reader(source: impl Read + Send + 'static) -> Result<Self, TraceError> {
         let file_position = Arc::new(AtomicU64::new(0));
-        let counted = Counted {
-            source,
-            count: file_position.clone(),
-        };
+        let counted = Counted { source, count: file_position.clone() };
         let (container, decoder) = container::open(counted)?;
         let mut parser = Parser::new(Blocks::start(container, decoder)?);
-        let header = parser
-            .header()
-            .map_err(|stop| header_error(stop, container, &parser))?;
+        let header = parser.header().map_err(|stop| header_error(stop, container, &parser))?;
         Ok(Self {
             container,
             header,
@@ -167,8 +159,7 @@ impl TraceReader {
             return Err(Damage::UnknownCall(number).into());
         }
         // Fits: smaller than the number of a call.
-        self.order
-            .leave(number as u32, |call| self.parser.details(call))
+        self.order.leave(number as u32, |call| self.parser.details(call))
     }
 
     fn finish(&mut self, stop: Stop) {
@@ -184,11 +175,7 @@ impl TraceReader {
     }
 
     fn damaged(&self, damage: Damage) -> TraceError {
-        TraceError::Damaged {
-            offset: self.position(),
-            calls: self.entered,
-            damage,
-        }
+        TraceError::Damaged { offset: self.position(), calls: self.entered, damage }
     }
 }
 
@@ -208,11 +195,7 @@ fn header_error(stop: Stop, container: Container, parser: &Parser) -> TraceError
         },
         _ if guessed => TraceError::NotATrace,
         Stop::End { .. } => TraceError::HeaderCut,
-        Stop::Damage(damage) => TraceError::Damaged {
-            offset: parser.input.position(),
-            calls: 0,
-            damage,
-        },
+        Stop::Damage(damage) => TraceError::Damaged { offset: parser.input.position(), calls: 0, damage },
     }
 }
 

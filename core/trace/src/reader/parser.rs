@@ -15,10 +15,7 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    const WHOLE: Self = Self {
-        values: limits::EVENT_VALUES,
-        bytes: limits::BLOB_BYTES,
-    };
+    const WHOLE: Self = Self { values: limits::EVENT_VALUES, bytes: limits::BLOB_BYTES };
 
     #[inline]
     pub fn take_values(&mut self, count: u64) -> Result<(), Stop> {
@@ -70,10 +67,7 @@ impl Parser {
 
     pub fn header(&mut self) -> Result<Header, Stop> {
         self.version = self.known_version()?;
-        let mut header = Header {
-            semantic_version: self.version,
-            properties: Vec::new(),
-        };
+        let mut header = Header { semantic_version: self.version, properties: Vec::new() };
         if self.version >= format::VERSION_PROPERTIES {
             header.semantic_version = self.known_version()?;
             loop {
@@ -91,9 +85,7 @@ impl Parser {
     fn known_version(&mut self) -> Result<u32, Stop> {
         match self.input.uint()? {
             version if version <= NEWEST_VERSION.into() => Ok(version as u32),
-            version => Err(Stop::Failed(
-                TraceError::UnsupportedVersion { version }.into(),
-            )),
+            version => Err(Stop::Failed(TraceError::UnsupportedVersion { version }.into())),
         }
     }
 

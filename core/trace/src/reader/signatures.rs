@@ -27,11 +27,7 @@ impl Parser {
         let arg_names = self.member_names()?;
         let table = &mut self.signatures.functions;
         let index = table.items.len().into();
-        let signature = FunctionSignature {
-            id: index,
-            name,
-            arg_names,
-        };
+        let signature = FunctionSignature { id: index, name, arg_names };
         table.insert(id, signature);
         Ok(index)
     }
@@ -45,11 +41,7 @@ impl Parser {
         let member_names = self.member_names()?;
         let table = &mut self.signatures.structs;
         let index = table.items.len().into();
-        let signature = StructSignature {
-            id: index,
-            name,
-            member_names,
-        };
+        let signature = StructSignature { id: index, name, member_names };
         table.insert(id, signature);
         Ok(index)
     }
@@ -144,19 +136,13 @@ impl Parser {
         if length > limits::NAME_BYTES {
             return Err(Damage::StringLength(length).into());
         }
-        self.name_bytes_left = self
-            .name_bytes_left
-            .checked_sub(length)
-            .ok_or(Damage::SignatureSize)?;
+        self.name_bytes_left = self.name_bytes_left.checked_sub(length).ok_or(Damage::SignatureSize)?;
         let bytes = self.input.bytes(length as usize)?;
         Ok(String::from_utf8_lossy(&bytes).into())
     }
 
     pub(super) fn claim_names(&mut self, count: u64) -> Result<(), Stop> {
-        self.names_left = self
-            .names_left
-            .checked_sub(count)
-            .ok_or(Damage::SignatureSize)?;
+        self.names_left = self.names_left.checked_sub(count).ok_or(Damage::SignatureSize)?;
         Ok(())
     }
 }

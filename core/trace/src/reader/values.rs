@@ -107,8 +107,7 @@ impl Parser {
         for _ in 0..length {
             // Tracers on Windows write UTF-16, others UTF-32; what fits neither is no character.
             let character = self.input.uint()?;
-            characters
-                .push(u32::try_from(character).unwrap_or(u32::from(char::REPLACEMENT_CHARACTER)));
+            characters.push(u32::try_from(character).unwrap_or(u32::from(char::REPLACEMENT_CHARACTER)));
         }
         Ok(characters.into())
     }

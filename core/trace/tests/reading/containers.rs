@@ -109,10 +109,7 @@ fn what_is_no_trace_is_refused() {
     ];
     for bytes in nothing {
         let error = open(bytes).err();
-        assert!(
-            matches!(error, Some(TraceError::NotATrace)),
-            "{bytes:?}: {error:?}"
-        );
+        assert!(matches!(error, Some(TraceError::NotATrace)), "{bytes:?}: {error:?}");
     }
 }
 
@@ -121,10 +118,7 @@ fn a_tail_of_zeros_is_a_cut() {
     let bytes = sample::encode(6);
     let outcome = read(&[snappy(&bytes, 50), vec![0; 4096]].concat());
     assert_eq!(outcome.lines, sample::lines());
-    let end = TraceEnd::Truncated {
-        incomplete: 0,
-        offset: bytes.len() as u64,
-    };
+    let end = TraceEnd::Truncated { incomplete: 0, offset: bytes.len() as u64 };
     assert_eq!(outcome.end.unwrap(), end);
 }
 
@@ -161,10 +155,7 @@ fn a_damaged_chunk_yields_its_start() {
     let bytes = sample::encode(6);
     let data = snap::raw::Encoder::new().compress_vec(&bytes).unwrap();
     // The same elements, a longer promise, and a copy from before the start of the data.
-    let mut chunk = vec![
-        (bytes.len() + 10) as u8 | 0x80,
-        ((bytes.len() + 10) >> 7) as u8,
-    ];
+    let mut chunk = vec![(bytes.len() + 10) as u8 | 0x80, ((bytes.len() + 10) >> 7) as u8];
     chunk.extend(&data[2..]);
     chunk.extend([9 << 2 | 2, 0xff, 0xff]);
     let length = (chunk.len() as u32).to_le_bytes();

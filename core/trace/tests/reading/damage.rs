@@ -134,12 +134,7 @@ fn many_values_in_small_arrays_are_damage_too() {
 #[test]
 fn a_length_alone_takes_no_memory() {
     // Within the limits, but there are no such data.
-    let lengths = [
-        (7, limits::STRING_BYTES),
-        (8, limits::BLOB_BYTES),
-        (11, 1 << 21),
-        (15, 1 << 25),
-    ];
+    let lengths = [(7, limits::STRING_BYTES), (8, limits::BLOB_BYTES), (11, 1 << 21), (15, 1 << 25)];
     for (tag, length) in lengths {
         let mut encoder = Encoder::new(6);
         encoder.enter(0, &ONE, vec![V::UInt(1)]);

@@ -34,12 +34,7 @@ pub struct Encoder {
 
 impl Encoder {
     pub fn new(version: u64) -> Self {
-        let mut encoder = Self {
-            bytes: Vec::new(),
-            version,
-            defined: HashSet::new(),
-            entered: 0,
-        };
+        let mut encoder = Self { bytes: Vec::new(), version, defined: HashSet::new(), entered: 0 };
         encoder.uint(version);
         if version >= 6 {
             encoder.uint(5);

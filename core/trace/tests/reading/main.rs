@@ -38,21 +38,14 @@ fn drain(reader: &mut TraceReader) -> Outcome {
             Err(error) => break Some(error),
         }
         let mut line = CallLine::new(&call, reader.signatures());
-        line.style = Style {
-            threads: true,
-            ..Style::default()
-        };
+        line.style = Style { threads: true, ..Style::default() };
         lines.push(line.to_string());
         calls.push(call.clone());
     };
     assert!(!reader.next_call(&mut call).unwrap());
     let end = reader.end().unwrap();
     assert_eq!(error.is_some(), matches!(end, TraceEnd::Failed { .. }));
-    Outcome {
-        calls,
-        lines,
-        end: error.map_or(Ok(end), Err),
-    }
+    Outcome { calls, lines, end: error.map_or(Ok(end), Err) }
 }
 
 fn read(bytes: &[u8]) -> Outcome {

@@ -49,10 +49,7 @@ fn a_second_leave_is_ignored() {
     encoder.end();
     encoder.call(0, &sample::CLEAR, vec![V::UInt(2)], None);
     let outcome = read(&encoder.bytes);
-    assert_eq!(
-        outcome.lines,
-        ["0 @0 glClear(mask = 1)", "1 @0 glClear(mask = 2)"]
-    );
+    assert_eq!(outcome.lines, ["0 @0 glClear(mask = 1)", "1 @0 glClear(mask = 2)"]);
 }
 
 /// Reads `file[..length]` for every length, and checks that only what is missing is missing.
@@ -74,10 +71,7 @@ fn cut_everywhere(file: &[u8], least_at_half: usize) {
         let incomplete = outcome.calls.iter().filter(|call| !call.complete).count() as u32;
         match outcome.end.unwrap() {
             TraceEnd::Clean { incomplete: open } => assert_eq!(open, incomplete),
-            TraceEnd::Truncated {
-                incomplete: open,
-                offset,
-            } => {
+            TraceEnd::Truncated { incomplete: open, offset } => {
                 assert_eq!(open, incomplete);
                 assert_eq!(offset, reader.position());
             }

@@ -34,10 +34,7 @@ fn the_header_is_read() {
 fn newer_versions_are_refused() {
     for header in [&[7][..], &[6, 7]] {
         let error = open(&containers::snappy(header, 100)).err().unwrap();
-        assert!(matches!(
-            error,
-            TraceError::UnsupportedVersion { version: 7 }
-        ));
+        assert!(matches!(error, TraceError::UnsupportedVersion { version: 7 }));
     }
 }
 
@@ -69,9 +66,7 @@ fn values_convert_and_know_their_names() {
     assert_eq!(aggregates.arg(7).as_u32(), Some(0x4103));
     let signatures = reader.signatures();
     assert_eq!(aggregates.arg(5).enum_name(signatures), Some("GL_LIGHT0"));
-    let visual = aggregates.arg(1).as_array().unwrap()[0]
-        .as_struct()
-        .unwrap();
+    let visual = aggregates.arg(1).as_array().unwrap()[0].as_struct().unwrap();
     let depth = visual.member(signatures, "depth").unwrap();
     assert_eq!(depth.as_i32(), Some(-24));
     assert!(visual.member(signatures, "w").is_none());
@@ -86,13 +81,7 @@ fn signatures_are_numbered_in_order_of_appearance() {
     crate::drain(&mut reader);
     let functions = reader.signatures().functions();
     let names = functions.iter().map(|function| &*function.name);
-    assert!(names.eq([
-        "glViewport",
-        "lots",
-        "glClear",
-        "glGenTextures",
-        "glXSwapBuffers"
-    ]));
+    assert!(names.eq(["glViewport", "lots", "glClear", "glGenTextures", "glXSwapBuffers"]));
     assert_eq!(&*functions[3].arg_names[1], "textures");
 }
 

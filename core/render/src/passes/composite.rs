@@ -1,0 +1,25 @@
+//! Traced light in place of the program's own in the window's colour.
+
+use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
+
+use crate::pathtrace::schedule::{ExposureUse, IDLE_REASON, ViewNeeds, ViewResources};
+use crate::schedule::Resources;
+
+pub(crate) fn declare(
+    graph: &mut GraphBuilder,
+    frame: &Resources,
+    views: &ViewResources,
+    view: usize,
+    needs: &ViewNeeds,
+) {
+    let mut pass = graph.pass("composite", PassKind::Compute);
+    pass.read(views.visibility, Access::StorageReadCompute)
+        .read(views.surfaces, Access::StorageReadCompute)
+        .read(views.light[view], Access::StorageReadCompute)
+        .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)
+        .read_write(frame.color, Access::StorageWriteCompute)
+        .when(!needs.is_idle, IDLE_REASON);
+    if needs.exposure != ExposureUse::None {
+        pass.read(views.exposure, Access::StorageReadCompute);
+    }
+}

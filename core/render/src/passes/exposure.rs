@@ -1,0 +1,42 @@
+//! How bright the traced picture must be shown to be as bright as the program's own.
+
+use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
+
+use crate::pathtrace::schedule::{ExposureUse, IDLE_REASON, ViewNeeds, ViewResources};
+use crate::schedule::Resources;
+
+/// Why no exposure is found.
+const NOT_NEEDED: &str = "the program's colours are its light";
+
+pub(crate) fn declare_sum(
+    graph: &mut GraphBuilder,
+    frame: &Resources,
+    views: &ViewResources,
+    view: usize,
+    needs: &ViewNeeds,
+) {
+    graph
+        .pass("exposure sums", PassKind::Compute)
+        .read(views.visibility, Access::StorageReadCompute)
+        .read(views.surfaces, Access::StorageReadCompute)
+        .read(views.light[view], Access::StorageReadCompute)
+        .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)
+        .read(frame.color, Access::StorageReadCompute)
+        .write(views.sums, Access::StorageWriteCompute)
+        .when(!needs.is_idle, IDLE_REASON)
+        .when(needs.exposure != ExposureUse::None, NOT_NEEDED);
+}
+
+/// The first exposure is found at once, so that nothing needs to have been there before.
+pub(crate) fn declare(graph: &mut GraphBuilder, views: &ViewResources, needs: &ViewNeeds) {
+    let mut pass = graph.pass("exposure", PassKind::Compute);
+    pass.read(views.sums, Access::StorageReadCompute)
+        .when(!needs.is_idle, IDLE_REASON)
+        .when(needs.exposure != ExposureUse::None, NOT_NEEDED);
+    match needs.exposure {
+        ExposureUse::Found { continues: true } => {
+            pass.read_write(views.exposure, Access::StorageWriteCompute)
+        }
+        _ => pass.write(views.exposure, Access::StorageWriteCompute),
+    };
+}

@@ -1,0 +1,18 @@
+//! What each pixel shows, from the visibility buffer.
+
+use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
+
+use crate::pathtrace::schedule::{IDLE_REASON, ViewNeeds, ViewResources};
+use crate::schedule::Resources;
+
+pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewResources, needs: &ViewNeeds) {
+    graph
+        .pass("surface", PassKind::Compute)
+        .read(views.visibility, Access::StorageReadCompute)
+        // Not read yet, but named by the same array of images, which must all be ready then.
+        .read(frame.color, Access::StorageReadCompute)
+        .read(frame.geometry, Access::StorageReadCompute)
+        .read(frame.textures, Access::StorageReadCompute)
+        .write(views.surfaces, Access::StorageWriteCompute)
+        .when(!needs.is_idle, IDLE_REASON);
+}

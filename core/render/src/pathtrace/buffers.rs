@@ -1,0 +1,124 @@
+//! What the passes of a view write, as large as the window, and how the last frame left it.
+
+use afterglow_frame_graph::ResourceState;
+use afterglow_gpu::{
+    BindlessKind, BindlessTable, Buffer, BufferDesc, BufferKind, Gpu, GpuError, Image, ImageDesc, vk,
+};
+use afterglow_layout::SharedStruct;
+use afterglow_records::{Exposure, ExposureSum, LightTexel, SurfaceTexel};
+
+use crate::target::Target;
+
+/// Numbers of draw and triangle of each pixel.
+pub(crate) const VISIBILITY_FORMAT: vk::Format = vk::Format::R32G32_UINT;
+/// Pixels along a side of a workgroup that sums for exposure.
+const SUM_EDGE: u32 = 16;
+/// Bytes of indirect light, a pixel.
+const INDIRECT_BYTES: u64 = 16;
+
+/// A buffer and how the last frame left it.
+pub(crate) struct Tracked {
+    pub(crate) buffer: Buffer,
+    pub(crate) state: ResourceState,
+}
+
+/// An image and how the last frame left it.
+pub(crate) struct TrackedImage {
+    pub(crate) image: Image,
+    pub(crate) state: ResourceState,
+}
+
+/// Everything of one window size.
+pub(crate) struct ViewBuffers {
+    pub(crate) size: [u32; 2],
+    pub(crate) visibility: TrackedImage,
+    /// Bindless index of the visibility as a storage image.
+    pub(crate) visibility_index: u32,
+    /// The colour image that [`ViewBuffers::color_index`] names.
+    color: vk::Image,
+    /// Bindless index of the window's colour as a storage image.
+    pub(crate) color_index: u32,
+    pub(crate) surfaces: Tracked,
+    /// Of each view of a frame.
+    pub(crate) light: Vec<Tracked>,
+    pub(crate) indirect: [Tracked; 2],
+    pub(crate) sums: Tracked,
+    pub(crate) exposure: Tracked,
+}
+
+impl ViewBuffers {
+    pub(crate) fn new(gpu: &Gpu, table: &BindlessTable, target: &Target) -> Result<Self, GpuError> {
+        let size = target.size;
+        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::STORAGE;
+        let visibility = gpu.create_image(&ImageDesc::d2("visibility", VISIBILITY_FORMAT, size, usage))?;
+        let pixels = pixels(size);
+        let buffer = |name, bytes| Tracked::new(gpu, name, bytes);
+        Ok(Self {
+            size,
+            visibility_index: storage_index(table, &visibility)?,
+            visibility: TrackedImage { image: visibility, state: ResourceState::UNDEFINED },
+            color: target.color.raw(),
+            color_index: storage_index(table, &target.color)?,
+            surfaces: buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
+            light: Vec::new(),
+            indirect: [
+                buffer("indirect", pixels * INDIRECT_BYTES)?,
+                buffer("indirect", pixels * INDIRECT_BYTES)?,
+            ],
+            sums: buffer("exposure sums", u64::from(sum_count(size)) * stride::<ExposureSum>())?,
+            exposure: buffer("exposure", stride::<Exposure>())?,
+        })
+    }
+
+    /// Whether these are for the target as it is now.
+    pub(crate) fn fits(&self, target: &Target) -> bool {
+        self.size == target.size && self.color == target.color.raw()
+    }
+
+    /// Makes sure that there is light of so many views.
+    pub(crate) fn reserve_views(&mut self, gpu: &Gpu, views: usize) -> Result<(), GpuError> {
+        while self.light.len() < views {
+            let bytes = pixels(self.size) * stride::<LightTexel>();
+            self.light.push(Tracked::new(gpu, "light", bytes)?);
+        }
+        Ok(())
+    }
+
+    /// Gives the places in the table back.
+    pub(crate) fn release(self, table: &BindlessTable) {
+        table.remove(BindlessKind::StorageImage, self.visibility_index);
+        table.remove(BindlessKind::StorageImage, self.color_index);
+    }
+}
+
+impl Tracked {
+    fn new(gpu: &Gpu, name: &str, bytes: u64) -> Result<Self, GpuError> {
+        Ok(Self {
+            buffer: gpu.create_buffer(&BufferDesc::new(name, BufferKind::Device, bytes))?,
+            state: ResourceState::UNDEFINED,
+        })
+    }
+}
+
+/// Workgroups that sum for exposure, along both sides.
+pub(crate) fn sum_groups(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| side.div_ceil(SUM_EDGE))
+}
+
+/// Workgroups that sum for exposure.
+pub(crate) fn sum_count(size: [u32; 2]) -> u32 {
+    let [across, down] = sum_groups(size);
+    across * down
+}
+
+fn pixels([width, height]: [u32; 2]) -> u64 {
+    u64::from(width) * u64::from(height)
+}
+
+fn stride<T: SharedStruct>() -> u64 {
+    size_of::<T>() as u64
+}
+
+fn storage_index(table: &BindlessTable, image: &Image) -> Result<u32, GpuError> {
+    table.add_image(BindlessKind::StorageImage, image.view(), vk::ImageLayout::GENERAL)
+}

@@ -1,0 +1,190 @@
+//! A frame's traced draws, and the layers over them, as records.
+
+use std::ops::Range;
+
+use afterglow_gl::frame::{Draw, Frame, Topology};
+use afterglow_gpu::{BindlessTable, GpuError};
+use afterglow_records::{SurfaceDraw, SurfaceKind};
+use afterglow_scene::Verdict;
+use glam::{DVec3, Mat4};
+
+use super::arrange::Mark;
+use super::geometry::GeometryReader;
+use super::options::{Displaced, PathtraceOptions};
+use super::surfaces::{LayerFinder, Lighting, Located, is_alpha_tested, masks, surface_draw};
+use super::tracer::Tracing;
+use super::world::{Traced, relative};
+use crate::bindings::Lookup;
+use crate::passes::raster::{DrawMark, RasterState};
+use crate::tables::Scratch;
+use crate::textures::Textures;
+use crate::uploads::UploadArena;
+
+/// What the rest of the renderer knows of a frame.
+pub(crate) struct TraceInput<'a> {
+    pub(crate) frame: &'a Frame,
+    /// Address of the frame's record.
+    pub(crate) address: u64,
+    pub(crate) scratch: &'a Scratch,
+    pub(crate) raster: &'a mut RasterState,
+    pub(crate) textures: &'a Textures,
+    pub(crate) table: &'a BindlessTable,
+    pub(crate) arena: &'a mut UploadArena,
+}
+
+/// A frame's surfaces, in order.
+#[derive(Default)]
+pub(crate) struct Surfaces<'a> {
+    pub(crate) records: Vec<SurfaceDraw>,
+    pub(crate) traced: Vec<Traced<'a>>,
+    /// What each draw of the frame leaves in the visibility buffer.
+    pub(crate) marks: Vec<DrawMark>,
+    /// Of each traced draw: its operation, and how light is found for it.
+    kinds: Vec<(usize, SurfaceKind)>,
+}
+
+impl Surfaces<'_> {
+    /// How light is found for the draws of a view.
+    pub(crate) fn kinds_within(&self, operations: &Range<usize>) -> Vec<SurfaceKind> {
+        let within = |(operation, _): &&(usize, SurfaceKind)| operations.contains(operation);
+        self.kinds.iter().filter(within).map(|(_, kind)| *kind).collect()
+    }
+}
+
+/// Makes the records of a frame; positions are relative to `origin`, in world space.
+pub(crate) fn gather<'a>(
+    geometry: &mut GeometryReader,
+    options: &PathtraceOptions,
+    input: &mut TraceInput<'a>,
+    tracing: &Tracing,
+    origin: DVec3,
+) -> Result<Surfaces<'a>, GpuError> {
+    let frame = input.frame;
+    let mut gatherer = Gatherer {
+        geometry,
+        options,
+        input,
+        lighting: Lighting::of(&tracing.scene),
+        origin,
+        layers: LayerFinder::default(),
+        surfaces: Surfaces::default(),
+    };
+    let mut verdicts = tracing.scene.verdicts.iter().peekable();
+    for (number, (operation, draw)) in frame.draws().enumerate() {
+        while verdicts.next_if(|verdict| (verdict.operation as usize) < operation).is_some() {}
+        let verdict = verdicts.peek().filter(|verdict| verdict.operation as usize == operation);
+        let mark = tracing.arrangement.marks.get(operation).copied().flatten();
+        let mark = match (verdict, mark) {
+            (Some(verdict), Some(mark)) => {
+                let place = Place { number, operation, draw };
+                gatherer.mark(&place, verdict, mark)?
+            }
+            _ => DrawMark::Kept,
+        };
+        gatherer.surfaces.marks.push(mark);
+    }
+    Ok(gatherer.surfaces)
+}
+
+struct Gatherer<'a, 'i> {
+    geometry: &'i mut GeometryReader,
+    options: &'i PathtraceOptions,
+    input: &'i mut TraceInput<'a>,
+    lighting: Lighting,
+    origin: DVec3,
+    layers: LayerFinder,
+    surfaces: Surfaces<'a>,
+}
+
+/// A draw: its number among the draws, and its operation.
+struct Place<'a> {
+    number: usize,
+    operation: usize,
+    draw: &'a Draw,
+}
+
+impl<'a> Gatherer<'a, '_> {
+    /// Makes a draw's record if it needs one. Returns what it leaves in the visibility buffer.
+    fn mark(&mut self, place: &Place<'a>, verdict: &Verdict, mark: Mark) -> Result<DrawMark, GpuError> {
+        let is_there = self.input.scratch.commands[place.number].index_count > 0;
+        Ok(match mark {
+            Mark::Traced if is_there => self.traced(place, verdict)?,
+            Mark::Layer if is_there && place.draw.topology == Topology::Triangles => {
+                self.layer(place, verdict)?
+            }
+            Mark::Solid => DrawMark::Written(0),
+            Mark::Traced | Mark::Layer | Mark::Colorless => DrawMark::Kept,
+        })
+    }
+
+    fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
+        let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
+        let kind = self.lighting.kind(verdict, words);
+        let (mask, meets) = masks(verdict.class, kind);
+        let surface = self.record(place, verdict, kind, meets)?;
+        let triangles = self.geometry.read(self.input.frame, place.draw);
+        self.layers.add(surface, &triangles);
+        self.surfaces.kinds.push((place.operation, kind));
+        self.surfaces.traced.push(Traced {
+            surface,
+            draw: place.draw,
+            triangles,
+            model: displaced(verdict, self.surfaces.traced.len(), self.options),
+            mask: mask as u8,
+            is_alpha_tested: is_alpha_tested(words),
+        });
+        Ok(DrawMark::Written(surface + 1))
+    }
+
+    /// A layer matters to rays only where it lies on a surface that they meet.
+    fn layer(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
+        let triangles = self.geometry.read(self.input.frame, place.draw);
+        if self.layers.has(&triangles) {
+            let layer = self.record(place, verdict, SurfaceKind::None, 0)?;
+            self.layers.link(&mut self.surfaces.records, layer, &triangles);
+        }
+        Ok(DrawMark::Kept)
+    }
+
+    /// Adds a record. Returns its number.
+    fn record(
+        &mut self,
+        place: &Place<'a>,
+        verdict: &Verdict,
+        kind: SurfaceKind,
+        ray_mask: u32,
+    ) -> Result<u32, GpuError> {
+        let (input, draw) = (&mut *self.input, place.draw);
+        let mut lookup = Lookup {
+            frame: input.frame,
+            textures: input.textures,
+            samplers: &mut input.raster.samplers,
+            table: input.table,
+        };
+        let bindings = &mut input.raster.bindings;
+        let push = bindings.push(&mut lookup, input.address, draw.bindings, draw.environment)?;
+        let located = Located {
+            record: &input.scratch.draws[place.number],
+            indices: input.scratch.commands[place.number].indices,
+            push: &push,
+            clamps: bindings.clamps(&mut lookup, draw.bindings)?,
+        };
+        let number = self.surfaces.records.len() as u32;
+        let rows = relative(&verdict.model, self.origin);
+        let record = surface_draw(input.frame, draw, located, rows, kind, ray_mask, number);
+        self.surfaces.records.push(record);
+        Ok(number)
+    }
+}
+
+/// The model matrix of what rays meet. `number` is the draw's among the traced ones.
+fn displaced(verdict: &Verdict, number: usize, options: &PathtraceOptions) -> Mat4 {
+    let moved = options.move_draw.filter(|(which, _)| match which {
+        Displaced::Draw(draw) => *draw as usize == number,
+        Displaced::Class(class) => *class == verdict.class,
+    });
+    match moved {
+        Some((_, by)) => Mat4::from_translation(by) * verdict.model,
+        None => verdict.model,
+    }
+}

@@ -1,0 +1,29 @@
+//! `pathtrace` mode: the frame's world is judged, drawn to a visibility buffer, and lit by rays.
+//!
+//! `arrange` puts the operations in an order in which that can be done, `prepare` makes the records that shaders
+//! read and the world that rays meet, `schedule` declares the passes, one file each in `passes`, and `record` records
+//! them. All else of the frame is rasterized as in `raster` mode.
+
+pub(crate) mod arrange;
+pub(crate) mod buffers;
+mod change;
+mod gather;
+mod geometry;
+mod lights;
+pub(crate) mod meshes;
+mod options;
+mod pipelines;
+mod prepare;
+mod record;
+pub(crate) mod schedule;
+mod slabs;
+mod surfaces;
+mod tracer;
+mod world;
+
+pub(crate) use gather::TraceInput;
+pub use options::{Displaced, Mode, PathtraceOptions};
+pub use prepare::TraceCounts;
+pub(crate) use prepare::{PreparedTrace, prepare};
+pub(crate) use record::TraceContext;
+pub(crate) use tracer::{Tracer, Tracing};

@@ -1,0 +1,201 @@
+//! From a judged frame to what its passes read: surfaces, the world, a record a view.
+
+use afterglow_gpu::GpuError;
+use afterglow_records::{MASK_MOVING, Paint, SurfaceKind, ViewRecord};
+use afterglow_scene::Camera;
+use bytemuck::Zeroable;
+
+use super::buffers::{ViewBuffers, sum_count};
+use super::change::{ChangeHasher, History, changes_textures};
+use super::gather::{Surfaces, TraceInput, gather};
+use super::lights::light_sources;
+use super::meshes::MeshCopy;
+use super::schedule::{ExposureUse, ViewNeeds};
+use super::tracer::{Tracer, Tracing};
+use super::world::{Traced, World};
+use crate::passes::raster::DrawMark;
+use crate::uploads::Upload;
+
+/// How far things that move darken surfaces, as a share of the world's extent.
+const CONTACT_SHARE: f32 = 0.03;
+/// How much of the way to its new value exposure goes in a frame.
+const EXPOSURE_RATE: f32 = 0.15;
+/// Samples a pixel below which indirect light is filtered in so many steps.
+const FILTER_STEPS: [(u32, u32); 3] = [(16, 3), (64, 2), (256, 1)];
+
+/// A view ready to be recorded.
+#[derive(Debug)]
+pub(crate) struct PreparedView {
+    /// Address of its record.
+    pub(crate) record: u64,
+    pub(crate) needs: ViewNeeds,
+}
+
+/// A frame's views ready to be recorded.
+#[derive(Debug)]
+pub(crate) struct PreparedTrace {
+    /// What each draw of the frame leaves in the visibility buffer.
+    pub(crate) marks: Vec<DrawMark>,
+    pub(crate) views: Vec<PreparedView>,
+    pub(crate) copies: Vec<MeshCopy>,
+    pub(crate) counts: TraceCounts,
+}
+
+/// What a frame's world is made of.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct TraceCounts {
+    /// Draws that the camera sees by rays' light.
+    pub traced_draws: usize,
+    /// Instances that rays can meet.
+    pub instances: usize,
+    /// Triangles that were built into structures for this frame.
+    pub built_triangles: usize,
+    /// Lights.
+    pub lights: usize,
+    /// Samples a pixel in the first view, earlier frames' included.
+    pub samples: usize,
+}
+
+/// What all views of a frame share.
+struct Common {
+    record: ViewRecord,
+    hash: u64,
+    may_continue: bool,
+}
+
+/// Makes what the passes of a frame's views read.
+pub(crate) fn prepare(
+    tracer: &mut Tracer,
+    mut input: TraceInput<'_>,
+    tracing: &Tracing,
+    camera: &Camera,
+    size: [u32; 2],
+) -> Result<PreparedTrace, GpuError> {
+    tracer.world.begin_frame();
+    let origin = camera.view.inverse().w_axis.truncate();
+    let geometry = &mut tracer.world.geometry;
+    let surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
+    let world = tracer.world.build(input.frame, &surfaces.traced, origin, input.arena)?;
+    let common = tracer.common(&mut input, tracing, camera, &surfaces, &world, size)?;
+    let mut views = Vec::with_capacity(tracing.arrangement.views.len());
+    let mut finds_exposure = true;
+    for (index, operations) in tracing.arrangement.views.iter().enumerate() {
+        let kinds = surfaces.kinds_within(operations);
+        let (needs, record) = tracer.view(index, &kinds, &common, &mut finds_exposure);
+        let record = input.arena.push(bytemuck::bytes_of(&record))?.address;
+        views.push(PreparedView { record, needs });
+    }
+    Ok(PreparedTrace {
+        marks: surfaces.marks,
+        views,
+        copies: tracer.world.meshes().copies.clone(),
+        counts: TraceCounts {
+            traced_draws: surfaces.traced.len(),
+            instances: world.instances as usize,
+            built_triangles: tracer.world.meshes().built,
+            lights: common.record.light_count as usize,
+            samples: tracer.history.first().map_or(0, |history| history.samples() as usize),
+        },
+    })
+}
+
+impl Tracer {
+    fn common(
+        &self,
+        input: &mut TraceInput<'_>,
+        tracing: &Tracing,
+        camera: &Camera,
+        surfaces: &Surfaces<'_>,
+        world: &World,
+        size: [u32; 2],
+    ) -> Result<Common, GpuError> {
+        let (scene, options) = (&tracing.scene, &self.options);
+        let origin = camera.view.inverse().w_axis.truncate();
+        let lights = light_sources(&scene.lights, origin, options.move_light);
+        let mut hasher = ChangeHasher::new(size, camera, scene, &lights, options);
+        for traced in &surfaces.traced {
+            let record = &surfaces.records[traced.surface as usize];
+            hasher.add(input.frame, traced.draw, record, traced.triangles.hash);
+        }
+        let is_mover = |traced: &Traced<'_>| u32::from(traced.mask) & MASK_MOVING != 0;
+        let focal_length = camera.projection.y_axis.y.abs();
+        let address = |upload: Result<Upload, GpuError>| upload.map(|upload| upload.address);
+        Ok(Common {
+            record: ViewRecord {
+                frame: input.address,
+                draws: address(input.arena.push_table(&surfaces.records))?,
+                members: world.members,
+                lights: address(input.arena.push_table(&lights))?,
+                world: world.tlas,
+                width: size[0],
+                height: size[1],
+                light_count: lights.len() as u32,
+                samples: options.spp.max(1),
+                seed: options.seed,
+                sky: scene.sky.to_array(),
+                contact_reach: CONTACT_SHARE * world.extent,
+                ambient: scene.ambient.to_array(),
+                paint: options.paint as u32,
+                pixel_spread: 2.0 / (focal_length * size[1] as f32).max(1e-6),
+                has_movers: surfaces.traced.iter().any(is_mover).into(),
+                sum_count: sum_count(size),
+                exposure_rate: if self.has_exposure { EXPOSURE_RATE } else { 1.0 },
+                ..ViewRecord::zeroed()
+            },
+            hash: hasher.finish(),
+            may_continue: options.accumulate && !changes_textures(input.frame),
+        })
+    }
+
+    /// What a view needs, and its record. The first view that has an exposure finds it for the others.
+    fn view(
+        &mut self,
+        view: usize,
+        kinds: &[SurfaceKind],
+        common: &Common,
+        finds_exposure: &mut bool,
+    ) -> (ViewNeeds, ViewRecord) {
+        let is_baked = kinds.iter().all(|kind| *kind == SurfaceKind::Baked);
+        let is_picture = self.options.paint == Paint::Picture;
+        let is_idle = is_baked && common.record.has_movers == 0 && is_picture;
+        if self.history.len() <= view {
+            self.history.resize(view + 1, History::default());
+        }
+        let samples = common.record.samples;
+        let may_continue = common.may_continue && !is_idle;
+        let accumulated = self.history[view].advance(common.hash, may_continue, samples);
+        let (filter_steps, filter_reason) = self.filter_steps(accumulated + samples);
+        let is_exposed = |kind| matches!(kind, &SurfaceKind::Lit | &SurfaceKind::BakedMover);
+        let exposure = match kinds.iter().any(is_exposed) {
+            false => ExposureUse::None,
+            true if std::mem::take(finds_exposure) => ExposureUse::Found { continues: self.has_exposure },
+            true => ExposureUse::Shared,
+        };
+        let needs = ViewNeeds { is_idle, filter_steps, filter_reason, continues: accumulated > 0, exposure };
+        let mut record = ViewRecord { accumulated, ..common.record };
+        if let Some(buffers) = &self.buffers {
+            name_buffers(&mut record, buffers, view, filter_steps);
+        }
+        (needs, record)
+    }
+
+    /// Steps of the filter for so many samples, and why there are no more.
+    fn filter_steps(&self, samples: u32) -> (u32, &'static str) {
+        if !self.options.filter {
+            return (0, "not asked for");
+        }
+        let steps = FILTER_STEPS.iter().find(|(most, _)| samples < *most);
+        (steps.map_or(0, |(_, steps)| *steps), "there are samples enough")
+    }
+}
+
+/// Tells a record where the window's buffers are.
+fn name_buffers(record: &mut ViewRecord, buffers: &ViewBuffers, view: usize, filter_steps: u32) {
+    record.surfaces = buffers.surfaces.buffer.address();
+    record.light = buffers.light.get(view).map_or(0, |light| light.buffer.address());
+    record.indirect = buffers.indirect[filter_steps as usize % 2].buffer.address();
+    record.sums = buffers.sums.buffer.address();
+    record.exposure = buffers.exposure.buffer.address();
+    record.visibility = buffers.visibility_index;
+    record.color = buffers.color_index;
+}

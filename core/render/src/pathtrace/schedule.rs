@@ -1,0 +1,130 @@
+//! The passes that light a view, declared in order.
+
+use afterglow_frame_graph::{GraphBuilder, ResourceId};
+
+use super::buffers::ViewBuffers;
+use crate::passes::{build, composite, exposure, filter, light, surface};
+use crate::schedule::Resources;
+
+/// What a pass of a view records; the number is the view's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TraceWork {
+    Build,
+    Surface(usize),
+    Light(usize),
+    /// A step of the filter, of so many.
+    Filter(usize, u32),
+    Sum(usize),
+    Exposure(usize),
+    Composite(usize),
+}
+
+/// What of a view's light is needed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ViewNeeds {
+    /// Nothing in the picture would change by light.
+    pub(crate) is_idle: bool,
+    /// Steps of the filter.
+    pub(crate) filter_steps: u32,
+    /// Why these are not more.
+    pub(crate) filter_reason: &'static str,
+    /// The view's samples go on from earlier frames'.
+    pub(crate) continues: bool,
+    pub(crate) exposure: ExposureUse,
+}
+
+/// Where a view's exposure comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ExposureUse {
+    /// Nothing in it needs one.
+    None,
+    /// It is found from this view's pixels; `continues` if there is an earlier frame's to go on from.
+    Found { continues: bool },
+    /// An earlier view of the frame has found it.
+    Shared,
+}
+
+/// Why nothing is lit in a view that needs no light.
+pub(crate) const IDLE_REASON: &str = "nothing moves among surfaces with baked light";
+
+/// The graph's resources that belong to views.
+#[derive(Debug, Clone)]
+pub(crate) struct ViewResources {
+    pub(crate) visibility: ResourceId,
+    pub(crate) world: ResourceId,
+    pub(crate) surfaces: ResourceId,
+    pub(crate) light: Vec<ResourceId>,
+    pub(crate) indirect: [ResourceId; 2],
+    pub(crate) sums: ResourceId,
+    pub(crate) exposure: ResourceId,
+}
+
+impl ViewResources {
+    /// Declares what `buffers` holds, as the last frame left it, and what of it the next frame may need.
+    pub(crate) fn declare(
+        graph: &mut GraphBuilder,
+        buffers: &ViewBuffers,
+        world: afterglow_frame_graph::ResourceState,
+    ) -> Self {
+        use afterglow_frame_graph::{Format, ImageDesc, ResourceDesc};
+        let visibility = &buffers.visibility;
+        let visibility_desc = ImageDesc::flat(buffers.size.into(), Format::Rg32Uint);
+        let visibility = graph.import("visibility", visibility_desc, visibility.state);
+        let world = graph.import("world", ResourceDesc::Buffer { bytes: 1 }, world);
+        let mut import = |name: &'static str, tracked: &super::buffers::Tracked| {
+            let bytes = tracked.buffer.size();
+            graph.import(name, ResourceDesc::Buffer { bytes }, tracked.state)
+        };
+        let resources = Self {
+            visibility,
+            world,
+            surfaces: import("surfaces", &buffers.surfaces),
+            light: buffers.light.iter().map(|light| import("light", light)).collect(),
+            indirect: [import("indirect", &buffers.indirect[0]), import("indirect", &buffers.indirect[1])],
+            sums: import("exposure sums", &buffers.sums),
+            exposure: import("exposure", &buffers.exposure),
+        };
+        graph.output(resources.world);
+        graph.output(resources.exposure);
+        for light in &resources.light {
+            graph.output(*light);
+        }
+        resources
+    }
+}
+
+/// Declares the passes of a view; `work` gets what each of them records.
+pub(crate) fn declare_view(
+    graph: &mut GraphBuilder,
+    work: &mut Vec<TraceWork>,
+    frame: &Resources,
+    views: &ViewResources,
+    view: usize,
+    needs: &ViewNeeds,
+    has_new_meshes: bool,
+) {
+    if view == 0 {
+        work.push(TraceWork::Build);
+        build::declare(graph, views, has_new_meshes);
+    }
+    work.push(TraceWork::Surface(view));
+    surface::declare(graph, frame, views, needs);
+    work.push(TraceWork::Light(view));
+    light::declare(graph, frame, views, view, needs);
+    for step in 0..needs.filter_steps {
+        work.push(TraceWork::Filter(view, step));
+        filter::declare(graph, views, step, needs);
+    }
+    if needs.filter_steps == 0 {
+        work.push(TraceWork::Filter(view, 0));
+        filter::declare_culled(graph, views, needs);
+    }
+    if needs.exposure != ExposureUse::Shared {
+        work.push(TraceWork::Sum(view));
+        exposure::declare_sum(graph, frame, views, view, needs);
+        work.push(TraceWork::Exposure(view));
+        exposure::declare(graph, views, needs);
+    }
+    work.push(TraceWork::Composite(view));
+    composite::declare(graph, frame, views, view, needs);
+}

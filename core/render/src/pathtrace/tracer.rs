@@ -1,0 +1,139 @@
+//! What path tracing keeps from frame to frame.
+
+use afterglow_frame_graph::{CompiledGraph, ResourceState};
+use afterglow_gl::frame::Frame;
+use afterglow_gpu::{BindlessTable, Gpu, GpuError};
+use afterglow_scene::{Recovery, Scene};
+
+use super::arrange::{Arrangement, arrange};
+use super::buffers::ViewBuffers;
+use super::change::History;
+use super::options::PathtraceOptions;
+use super::pipelines::TracePipelines;
+use super::prepare::PreparedTrace;
+use super::schedule::{ExposureUse, ViewResources};
+use super::world::WorldBuilder;
+use crate::target::Target;
+
+/// A frame that is to be traced.
+#[derive(Debug, Default)]
+pub(crate) struct Tracing {
+    pub(crate) scene: Scene,
+    pub(crate) arrangement: Arrangement,
+}
+
+/// Path tracing of one window.
+pub(crate) struct Tracer {
+    pub(crate) options: PathtraceOptions,
+    pub(crate) recovery: Recovery,
+    pub(crate) world: WorldBuilder,
+    /// How the last frame left the meshes.
+    pub(crate) world_state: ResourceState,
+    pub(crate) pipelines: TracePipelines,
+    /// Of the window's size; none before the first traced frame.
+    pub(crate) buffers: Option<ViewBuffers>,
+    /// Of each view.
+    pub(crate) history: Vec<History>,
+    /// An earlier frame has found an exposure.
+    pub(crate) has_exposure: bool,
+    /// The frame that is going on was handed over in parts: all of it is rasterized.
+    pub(crate) is_cut: bool,
+    /// That a frame was cut has been logged.
+    pub(crate) has_warned: bool,
+}
+
+impl Tracer {
+    /// None if the device lacks what the visibility buffer needs.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        table: &BindlessTable,
+        options: PathtraceOptions,
+    ) -> Result<Option<Self>, GpuError> {
+        let features = gpu.features();
+        // Triangles' numbers in fragments, colour and visibility that are blended differently, two numbers a pixel.
+        let serves =
+            features.geometry_shader && features.independent_blend && features.storage_image_extended_formats;
+        if !serves {
+            tracing::warn!("the device cannot number triangles: frames are rasterized");
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            options,
+            recovery: Recovery::new(),
+            world: WorldBuilder::new(gpu),
+            world_state: ResourceState::SETTLED,
+            pipelines: TracePipelines::new(gpu, table)?,
+            buffers: None,
+            history: Vec::new(),
+            has_exposure: false,
+            is_cut: false,
+            has_warned: false,
+        }))
+    }
+
+    /// Judges a frame and puts it in order; none if it has no world, and stays as it is.
+    pub(crate) fn understand(&mut self, frame: &mut Frame) -> Option<Tracing> {
+        let mut scene = self.recovery.understand(frame);
+        scene.camera?;
+        let arrangement = arrange(frame, &scene);
+        if arrangement.views.is_empty() {
+            return None;
+        }
+        arrangement.apply(frame, &mut scene);
+        Some(Tracing { scene, arrangement })
+    }
+
+    /// Makes buffers that fit the window, for so many views.
+    pub(crate) fn reserve(
+        &mut self,
+        gpu: &Gpu,
+        table: &BindlessTable,
+        target: &Target,
+        views: usize,
+    ) -> Result<(), GpuError> {
+        if !self.buffers.as_ref().is_some_and(|buffers| buffers.fits(target)) {
+            if let Some(old) = self.buffers.take() {
+                old.release(table);
+            }
+            self.history.iter_mut().for_each(History::forget);
+            self.has_exposure = false;
+            self.buffers = Some(ViewBuffers::new(gpu, table, target)?);
+        }
+        match &mut self.buffers {
+            Some(buffers) => buffers.reserve_views(gpu, views),
+            None => Ok(()),
+        }
+    }
+
+    /// Takes over how a frame leaves what lives longer than it.
+    pub(crate) fn keep_states(
+        &mut self,
+        graph: &CompiledGraph,
+        resources: &ViewResources,
+        prepared: &PreparedTrace,
+    ) {
+        let keep = |state: &mut ResourceState, resource| {
+            *state = graph.final_state(resource).unwrap_or(*state);
+        };
+        keep(&mut self.world_state, resources.world);
+        if let Some(buffers) = &mut self.buffers {
+            keep(&mut buffers.visibility.state, resources.visibility);
+            keep(&mut buffers.surfaces.state, resources.surfaces);
+            keep(&mut buffers.sums.state, resources.sums);
+            keep(&mut buffers.exposure.state, resources.exposure);
+            for (light, resource) in buffers.light.iter_mut().zip(&resources.light) {
+                keep(&mut light.state, *resource);
+            }
+            for (indirect, resource) in buffers.indirect.iter_mut().zip(&resources.indirect) {
+                keep(&mut indirect.state, *resource);
+            }
+        }
+        let finds = |exposure| matches!(exposure, ExposureUse::Found { .. });
+        self.has_exposure |= prepared.views.iter().any(|view| finds(view.needs.exposure));
+    }
+
+    /// After a frame that was not recorded: what its passes would have left is not there.
+    pub(crate) fn forget(&mut self) {
+        self.history.iter_mut().for_each(History::forget);
+    }
+}

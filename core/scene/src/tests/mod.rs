@@ -1,0 +1,7 @@
+//! Whole frames, built by hand, and what is understood of them.
+
+mod camera;
+mod classes;
+mod layers;
+mod lights;
+mod robustness;

@@ -1,0 +1,69 @@
+// Traced light in place of the program's own, as 8-bit colour; alpha and what is not traced stay.
+#version 460
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "pathtrace/resolve.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2D visibility_images[];
+layout(set = 0, binding = 4, rgba8) uniform image2D color_images[];
+
+layout(push_constant, scalar) uniform Push { ViewPush push; };
+
+// Of something that moves among baked surfaces: how much is the light that was traced; the rest is the
+// program's own guess.
+const float MOVER_TRACED = 0.6;
+
+vec3 kind_color(uint kind) {
+    const vec3 colors[5] = vec3[5](vec3(0.0), vec3(1.0, 0.8, 0.2), vec3(0.3, 0.6, 1.0), vec3(0.4, 0.8, 0.4), vec3(1.0, 0.4, 0.4));
+    return colors[min(kind, 4u)];
+}
+
+vec3 painted(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indirect) {
+    switch (view.paint) {
+        case PAINT_KIND: return kind_color(surface_kind(surface)) * (0.3 + 0.7 * abs(unpack_unit_vector(surface.normal).z));
+        case PAINT_NORMAL: return unpack_unit_vector(surface.normal) * 0.5 + 0.5;
+        case PAINT_ALBEDO: return unpack_color(surface.albedo);
+        case PAINT_DIRECT: return srgb_from_linear(light.direct);
+        default: return srgb_from_linear(indirect);
+    }
+}
+
+vec3 composited(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indirect, vec3 program, uvec2 pixel) {
+    uint kind = surface_kind(surface);
+    vec2 exposure = ExposureBuffer(view.exposure).entries[0].scale;
+    float scale = kind == SURFACE_LIT ? exposure.x : kind == SURFACE_BAKED_MOVER ? exposure.y : 1.0;
+    vec3 shown = srgb_from_linear(min(radiance(surface, light, indirect, linear_from_srgb(program)) * scale, 1.0));
+    if (kind == SURFACE_LIT || kind == SURFACE_BAKED_MOVER) {
+        float fog = unpack_fourth(surface.albedo);
+        if (fog < 1.0) {
+            uint draw = imageLoad(visibility_images[view.visibility], ivec2(pixel)).x - 1u;
+            shown = mix(fog_color(view, draw), shown, fog);
+        }
+    }
+    return kind == SURFACE_BAKED_MOVER ? mix(program, shown, MOVER_TRACED) : shown;
+}
+
+void main() {
+    ViewRecord view = ViewTable(push.view).entries[0];
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, view_size(view)))) {
+        return;
+    }
+    uint index = pixel.y * view.width + pixel.x;
+    SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
+    if (surface_kind(surface) == SURFACE_NONE) {
+        return;
+    }
+    LightTexel light = LightTexels(view.light).entries[index];
+    vec3 indirect = ColorTexels(view.indirect).entries[index].rgb;
+    vec4 program = imageLoad(color_images[view.color], ivec2(pixel));
+    vec3 shown = view.paint == PAINT_PICTURE
+        ? composited(view, surface, light, indirect, program.rgb, pixel) : painted(view, surface, light, indirect);
+    imageStore(color_images[view.color], ivec2(pixel), vec4(clamp(shown, 0.0, 1.0), program.a));
+}

@@ -1,0 +1,228 @@
+// Light that reaches each pixel's surface, by rays: one ray at a time, from one place in the code.
+#version 460
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_GOOGLE_include_directive : require
+
+#include "bvh.glsl"
+#include "pathtrace/color.glsl"
+#include "pathtrace/hit.glsl"
+#include "pathtrace/lights.glsl"
+#include "pathtrace/random.glsl"
+#include "pathtrace/sampling.glsl"
+#include "pathtrace/surface.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(push_constant, scalar) uniform Push { ViewPush push; };
+
+// Radiance that one sample brings at most: rare paths must not leave bright dots.
+const float MOST_RADIANCE = 16.0;
+// Tangent of what a secondary ray covers: wide, because it stands for many.
+const float RAY_SPREAD = 0.05;
+// How dark things that touch a surface with baked light make it.
+const float CONTACT_STRENGTH = 0.85;
+
+uint member_of(ViewRecord view, uint instance, uint primitive, out uint triangle) {
+    MeshMember member = MemberTable(view.members).entries[instance + (primitive >> MEMBER_SHIFT)];
+    triangle = member.first_triangle + (primitive & ((1u << MEMBER_SHIFT) - 1u));
+    return member.draw;
+}
+
+bool accept_hit(uint instance, uint primitive, vec2 barycentrics) {
+    ViewRecord view = ViewTable(push.view).entries[0];
+    uint triangle;
+    uint draw = member_of(view, instance, primitive, triangle);
+    return passes_alpha_test(view, draw, triangle, barycentrics);
+}
+
+// A surface that light is found for: the pixel's, or one that a ray has met.
+struct Place {
+    vec3 start;
+    vec3 normal;
+    vec3 geometric;
+    uint mask;
+    // What of its light reaches the pixel; 0 where there is none to be found.
+    vec3 weight;
+};
+
+// What a ray has met: its light that needs no ray, and where it can find more.
+vec3 met_light(ViewRecord view, Hit hit, vec3 direction, out Place place) {
+    uint triangle;
+    uint draw_index = member_of(view, hit.instance, hit.primitive, triangle);
+    DrawReference draw = surface_draw(view, draw_index);
+    GlobalState state = global_state(draw);
+    uint64_t corners[3] = corner_addresses(draw, triangle);
+    vec4 positions[3] = corner_positions(draw, corners);
+    vec3 world[3];
+    for (uint i = 0u; i < 3u; ++i) {
+        world[i] = world_position(draw, positions[i]);
+    }
+    TrianglePoint point = hit_point(triangle, hit.barycentrics, world, hit.t * RAY_SPREAD);
+    vec3 weights = point.weights[0];
+    vec3 geometric = unit_vector(cross(world[1] - world[0], world[2] - world[0]));
+    geometric = dot(geometric, direction) > 0.0 ? -geometric : geometric;
+    vec3 normal = given_normal(view, draw, corners, weights, state.lighting);
+    normal = normal == vec3(0.0) ? geometric : dot(normal, geometric) < 0.0 ? -normal : normal;
+    vec3 color = linear_from_srgb(unlit_color(view, draw_index, point, false).rgb);
+
+    vec4 position_object = positions[0] * weights.x + positions[1] * weights.y + positions[2] * weights.z;
+    float reach = length(draw.it.object_to_world[0].xyz) * max(max(abs(position_object.x), abs(position_object.y)), abs(position_object.z));
+    place.start = offset_ray(world_position(draw, position_object), geometric) + geometric * (reach * 4e-6);
+    place.normal = normal;
+    place.geometric = geometric;
+    place.mask = MASK_STATIC | MASK_MOVING;
+    place.weight = vec3(0.0);
+    if (draw.it.kind != SURFACE_LIT) {
+        return color;
+    }
+    place.weight = color;
+    MaterialFace material = point_material(view, draw, state, vertex_color(view, draw, state, corners, weights));
+    return color * view.ambient + linear_from_srgb(material.emission.rgb);
+}
+
+// The ray that a stage of a sample sends.
+struct RayPlan {
+    vec3 direction;
+    float reach;
+    vec3 color; // of the light at its end
+    bool is_worth_it;
+};
+
+// Sums over samples.
+struct Sums {
+    vec3 direct;
+    vec3 indirect;
+    vec3 specular;
+};
+
+RayPlan plan_contact(Place place, vec2 numbers, float reach) {
+    return RayPlan(cosine_direction(place.normal, numbers), reach, vec3(0.0), true);
+}
+
+RayPlan plan_bounce(Place place, vec2 numbers) {
+    vec3 direction = cosine_direction(place.normal, numbers);
+    return RayPlan(direction, LONGEST_RAY, vec3(0.0), dot(place.geometric, direction) > 0.0);
+}
+
+RayPlan plan_shadow(ViewRecord view, Place place, uint light, float inverse_chance, vec2 numbers) {
+    RayPlan plan = RayPlan(place.normal, 0.0, vec3(0.0), false);
+    if (light < view.light_count) {
+        LightSource source = LightSourceTable(view.lights).entries[light];
+        plan.color = inverse_chance * light_towards(source, place.start, numbers, plan.direction, plan.reach);
+        plan.is_worth_it = dot(place.normal, plan.direction) > 0.0 && plan.color != vec3(0.0);
+    }
+    return plan;
+}
+
+// Samples of a pixel. Of surfaces that lights reach, a sample is a shadow ray to each light, one ray that
+// bounces, and a shadow ray from where that ends; among baked surfaces it is one ray.
+Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel) {
+    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0));
+    uint kind = surface_kind(surface);
+    bool in_contact = kind == SURFACE_BAKED;
+    vec3 to_viewer = unit_vector(-surface.start);
+    vec3 specular_color = unpack_color(surface.specular);
+    float shininess = unpack_fourth(surface.specular) * 128.0;
+    uint bounce = in_contact ? 0u : view.light_count;
+    uint stages = kind == SURFACE_LIT || kind == SURFACE_CATCHER ? bounce + 2u : bounce + 1u;
+    Random random = Random(random_pixel, view.accumulated);
+    Place place = seen;
+    uint stage = 0u;
+    [[dont_unroll]] for (uint i = view.samples * stages; i != 0u; --i) {
+        vec2 numbers = random_2d(random, stage);
+        RayPlan plan;
+        if (in_contact) {
+            plan = plan_contact(place, numbers, view.contact_reach);
+        } else if (stage == bounce) {
+            plan = plan_bounce(place, numbers);
+        } else {
+            uint light = stage;
+            float inverse_chance = 1.0;
+            if (stage > bounce) {
+                float number = random_2d(random, stage + 1u).x;
+                light = place.weight == vec3(0.0)
+                    ? view.light_count : chosen_light(view, place.start, place.normal, number, inverse_chance);
+            }
+            plan = plan_shadow(view, place, light, inverse_chance, numbers);
+        }
+        Hit hit;
+        bool met = false;
+        if (plan.is_worth_it) {
+            met = bvh_trace(view.world, place.start, 0.0, plan.direction, plan.reach, place.mask, stage != bounce, hit);
+        }
+        if (stage == bounce) {
+            if (in_contact) {
+                sums.indirect += met ? 1.0 - CONTACT_STRENGTH * (1.0 - hit.t / plan.reach) : 1.0;
+            } else if (met) {
+                sums.indirect += min(met_light(view, hit, plan.direction, place), MOST_RADIANCE);
+            } else {
+                sums.indirect += plan.is_worth_it ? view.sky + view.ambient : vec3(0.0);
+                place.weight = vec3(0.0);
+            }
+        } else if (plan.is_worth_it && !met) {
+            vec3 brought = plan.color * dot(place.normal, plan.direction);
+            if (stage < bounce) {
+                sums.direct += brought;
+                float glint = max(dot(place.normal, unit_vector(plan.direction + to_viewer)), 0.0);
+                sums.specular += plan.color * linear_from_srgb(specular_color * power(glint, shininess));
+            } else {
+                sums.indirect += min(place.weight * brought, MOST_RADIANCE);
+            }
+        }
+        if (++stage == stages) {
+            stage = 0u;
+            ++random.sample_index;
+            place = seen;
+        }
+    }
+    return sums;
+}
+
+// The mean of a pixel's samples, as composition takes it.
+LightTexel found_light(ViewRecord view, SurfaceTexel surface, uint index) {
+    uint kind = surface_kind(surface);
+    if (kind == SURFACE_BAKED && view.has_movers == 0u) {
+        return LightTexel(vec3(0.0), vec3(1.0), vec3(0.0));
+    }
+    Place seen;
+    seen.start = surface.start;
+    seen.normal = unpack_unit_vector(surface.normal);
+    seen.geometric = unpack_unit_vector(surface.geometric);
+    seen.mask = surface_ray_mask(surface);
+    seen.weight = vec3(0.0);
+    Sums sums = gather(view, surface, seen, hash(index + hash(view.seed)));
+    vec3 scale = vec3(1.0 / float(view.samples));
+    vec3 light_scale = scale;
+    if (kind == SURFACE_CATCHER) {
+        light_scale /= max(open_light(view, seen.start, seen.normal), 1e-3);
+    }
+    return LightTexel(sums.direct * light_scale, sums.indirect * light_scale, sums.specular * scale);
+}
+
+void main() {
+    ViewRecord view = ViewTable(push.view).entries[0];
+    uvec2 pixel = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, view_size(view)))) {
+        return;
+    }
+    uint index = pixel.y * view.width + pixel.x;
+    SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
+    LightTexel light = LightTexel(vec3(0.0), vec3(0.0), vec3(0.0));
+    if (surface_kind(surface) != SURFACE_NONE) {
+        light = found_light(view, surface, index);
+        if (view.accumulated != 0u) {
+            LightTexel before = LightTexels(view.light).entries[index];
+            float share = float(view.samples) / float(view.accumulated + view.samples);
+            light.direct = mix(before.direct, light.direct, share);
+            light.indirect = mix(before.indirect, light.indirect, share);
+            light.specular = mix(before.specular, light.specular, share);
+        }
+    }
+    LightTexels(view.light).entries[index] = light;
+    ColorTexels(push.target).entries[index] = vec4(light.indirect, 0.0);
+}

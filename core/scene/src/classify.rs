@@ -215,7 +215,10 @@ impl<'a> Classifier<'a> {
             return Some((Class::Sky, "far depth range"));
         }
         if self.is_early(facts) && !self.writes_depth(facts) {
-            return Some((Class::Sky, "before the world, writes no depth"));
+            return Some(match self.is_ground(facts) {
+                true => (Class::Static, "lit, under the view, before the world"),
+                false => (Class::Sky, "before the world, writes no depth"),
+            });
         }
         let layer = facts.place.layer;
         if layer < self.world.stage.layer() {
@@ -223,6 +226,14 @@ impl<'a> Classifier<'a> {
         }
         (!self.writes_depth(facts) && facts.mixing == Mixing::Opaque && self.is_carried_along(facts))
             .then_some((Class::Sky, "surrounds the eye, moves with it"))
+    }
+
+    /// Whether a draw that everything else covers is a surface at a place nevertheless: it moves with the world
+    /// and is lit by its lights, which no sky is. Programs that cannot see below their ground draw it so.
+    fn is_ground(&self, facts: &DrawFacts) -> bool {
+        let words = &self.frame.fixed[facts.draw.fixed as usize].words.global;
+        let is_lit = words.lighting() != 0 && words.lights() != 0;
+        is_lit && facts.mixing == Mixing::Opaque && self.is_view(facts) && !self.is_carried_along(facts)
     }
 
     /// Whether a draw turns with the world but keeps its place about the eye.

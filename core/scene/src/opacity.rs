@@ -1,8 +1,8 @@
 //! Whether blending a draw can show what is behind it: fragments' alpha followed through the fixed function.
 
 use afterglow_gl::frame::{
-    BaseFormat, Blend, BlendEquation, BlendFactor, CombineFunction, CombineSource, Draw, EnvMode, Frame,
-    TEXTURE_UNITS, UnitWords,
+    BaseFormat, Blend, BlendEquation, BlendFactor, CombineFunction, CombineSource, Compare, Draw, EnvMode,
+    Frame, TEXTURE_UNITS, UnitWords,
 };
 
 use crate::geometry::{ContentCache, is_one};
@@ -47,7 +47,9 @@ fn by_alpha(frame: &Frame, draw: &Draw, images: &Images, cache: &mut ContentCach
     let primary = fragment.primary_alpha_is_one(cache);
     if fragment.alpha_is_one(primary, ImageFacts::is_opaque) {
         Mixing::Opaque
-    } else if fragment.alpha_is_one(primary, |i| i.is_opaque() || i.is_cut_out()) {
+    } else if fragment.alpha_is_one(primary, |i| i.is_opaque() || i.is_cut_out())
+        || (primary && fragment.fails_half_alpha())
+    {
         Mixing::CutOut
     } else {
         Mixing::Blend
@@ -61,6 +63,14 @@ struct Fragment<'a> {
 }
 
 impl Fragment<'_> {
+    /// Whether the alpha test lets only fragments pass that are nearer to opaque than to clear.
+    fn fails_half_alpha(&self) -> bool {
+        let function = self.frame.fixed[self.draw.fixed as usize].words.global.alpha_func();
+        let passes_above = [Compare::Greater, Compare::GreaterEqual].iter().any(|&c| c as u32 == function);
+        let environment = self.frame.environments.get(self.draw.environment as usize);
+        passes_above && environment.is_some_and(|e| e.alpha_reference >= 0.5)
+    }
+
     /// Alpha before texturing: the colour's, or the diffuse material's when lit.
     fn primary_alpha_is_one(&self, cache: &mut ContentCache) -> bool {
         let global = self.frame.fixed[self.draw.fixed as usize].words.global;

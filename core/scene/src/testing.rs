@@ -26,6 +26,8 @@ pub struct Sketch {
     pub color: [f32; 4],
     /// Lights of the next draw.
     pub lights: Lights,
+    /// Reference of the alpha test.
+    pub alpha_reference: f32,
 }
 
 impl Sketch {
@@ -43,16 +45,19 @@ impl Sketch {
             line_width: 1.0.into(),
             line_stipple: None,
         };
+        let mut words = StateWords::default();
+        words.global.set_alpha_func(Compare::Always as u32);
         let rect = Rect { x: 0, y: 0, width: SIZE.0 as i32, height: SIZE.1 as i32 };
         Sketch {
             frame: Frame { size: SIZE, ..Frame::default() },
-            fixed: FixedState { words: StateWords::default(), raster },
+            fixed: FixedState { words, raster },
             viewport: Viewport { rect, depth_range: [0.0, 1.0], scissor: None },
             modelview: Mat4::IDENTITY,
             projection: perspective(),
             bindings: [None; TEXTURE_UNITS],
             color: [1.0; 4],
             lights: bytemuck::Zeroable::zeroed(),
+            alpha_reference: 0.0,
         }
     }
 
@@ -110,6 +115,9 @@ impl Sketch {
         frame.lights.push(self.lights);
         frame.materials.push(material);
         frame.current.push(current);
+        let mut environment: Environment = bytemuck::Zeroable::zeroed();
+        environment.alpha_reference = self.alpha_reference;
+        frame.environments.push(environment);
         frame.operations.push(Operation::Draw(Draw {
             source,
             layout,
@@ -121,7 +129,7 @@ impl Sketch {
             transform: frame.transforms.len() as u32 - 1,
             lights: frame.lights.len() as u32 - 1,
             material: frame.materials.len() as u32 - 1,
-            environment: 0,
+            environment: frame.environments.len() as u32 - 1,
             texgen: 0,
             texture_matrices: 0,
             clip_planes: 0,

@@ -54,7 +54,8 @@ pub struct Verdict {
     pub class: Class,
     /// Why, in a few words.
     pub reason: &'static str,
-    /// Object to world space; identity unless the draw belongs to the world.
+    /// Object to world space; identity unless the draw belongs to the world. Static draws of a world that the
+    /// program scales keep the scale here, since the camera is rigid.
     pub model: Mat4,
     /// Its colours are baked light: unlit, with a lightmap or vertex colours.
     pub baked: bool,

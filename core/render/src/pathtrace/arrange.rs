@@ -152,6 +152,8 @@ impl Arranger<'_> {
             _ if class.is_traced() && draw.topology == Topology::Triangles && raster.logic_op.is_none() => {
                 Role::Mark(Mark::Traced)
             }
+            // Blended or not, it is behind what comes after it, and before the ground that it rises from.
+            Class::Sky => Role::Mark(Mark::Solid),
             _ if self.is_counting => Role::Mark(Mark::Solid),
             _ if raster.blend.is_some() || raster.logic_op.is_some() => Role::Waits,
             _ => Role::Mark(Mark::Solid),

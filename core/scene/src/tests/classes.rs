@@ -91,6 +91,22 @@ fn blending_that_shows_nothing_of_what_is_behind_is_opaque() {
 }
 
 #[test]
+fn an_alpha_test_for_more_than_half_cuts_out() {
+    let mut sketch = Sketch::new();
+    sketch.modelview = eye_at(2.0);
+    sketch.world();
+    sketch.blend(OVER);
+    sketch.texture(0, BaseFormat::Rgba, &[[90, 80, 70, 120], [90, 80, 70, 200]]);
+    sketch.fixed.words.global.set_alpha_func(Compare::Greater as u32);
+    sketch.alpha_reference = 0.65;
+    let fence = sketch.draw(&thing(1.0));
+    sketch.alpha_reference = 0.01;
+    let smoke = sketch.draw(&thing(2.0));
+    let scene = understand(&sketch);
+    assert_eq!((class(&scene, fence), class(&scene, smoke)), (Class::Static, Class::Translucent));
+}
+
+#[test]
 fn texels_are_remembered_from_frames_that_were_only_observed() {
     let mut sketch = Sketch::new();
     sketch.blend(OVER);

@@ -86,6 +86,10 @@ shared_struct! {
         /// Unit vector along which a spot shines.
         pub spot_axis: [f32; 3],
         pub spot_exponent: f32,
+        /// Linear RGB of the highlight on a mirror-like white surface.
+        pub specular: [f32; 3],
+        /// Unused.
+        pub padding: u32,
     }
 }
 
@@ -110,6 +114,8 @@ shared_struct! {
         pub indirect: u64,
         /// [`ExposureSum`]s, one a workgroup.
         pub sums: u64,
+        /// [`MoverSum`]s, one a [`SurfaceDraw`].
+        pub movers: u64,
         /// [`Exposure`].
         pub exposure: u64,
         /// Pixels.
@@ -179,19 +185,27 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// Sums over pixels for exposure: luminance traced, as the program has it, and weights; lit surfaces first,
-    /// moving ones among baked surfaces second.
+    /// Sums of luminance over lit pixels for exposure.
     pub struct ExposureSum {
-        pub traced: [f32; 2],
-        pub program: [f32; 2],
+        /// As traced.
+        pub traced: f32,
+        /// As the program has it.
+        pub program: f32,
     }
 }
 
 shared_struct! {
-    /// What light is multiplied by, kept from frame to frame.
+    /// The same over the pixels of one moving draw among baked surfaces, in units of 1/256.
+    pub struct MoverSum {
+        pub traced: u32,
+        pub program: u32,
+    }
+}
+
+shared_struct! {
+    /// What the light of lit surfaces is multiplied by, kept from frame to frame.
     pub struct Exposure {
-        /// Of lit surfaces, and of moving ones among baked surfaces.
-        pub scale: [f32; 2],
+        pub scale: f32,
     }
 }
 

@@ -145,6 +145,7 @@ impl Renderer {
         let views = tracing.arrangement.views.len();
         tracer.reserve(&self.gpu, &self.table, &self.target, views)?;
         let input = TraceInput {
+            gpu: &self.gpu,
             frame,
             address,
             scratch: &self.scratch,
@@ -215,6 +216,7 @@ impl Renderer {
         let buffers = self.tracer.as_ref().and_then(|tracer| tracer.buffers.as_ref());
         if let (Some(views), Some(buffers)) = (&prepared.schedule.views, buffers) {
             bound[views.visibility.index()] = Bound::Image(&buffers.visibility.image);
+            bound[views.albedo.index()] = Bound::Image(&buffers.albedo.image);
         }
         bound
     }
@@ -254,6 +256,7 @@ impl Renderer {
                 let view = match (step.view, buffers, &prepared.traced) {
                     (Some(_), Some(buffers), Some(traced)) => Some(RasterView {
                         visibility: buffers.visibility.image.view(),
+                        albedo: buffers.albedo.image.view(),
                         begins: *begins_view,
                         marks: &traced.marks,
                     }),

@@ -52,6 +52,8 @@ struct Modules {
     draw: ShaderModule,
     draw_clipped: ShaderModule,
     draw_fragment: ShaderModule,
+    /// Without and with clip planes.
+    visibility: [ShaderModule; 2],
     visibility_fragment: ShaderModule,
     pixels: ShaderModule,
     pixels_fragment: ShaderModule,
@@ -114,9 +116,12 @@ impl Pipelines {
             Program::Pixels => (&modules.pixels, &modules.pixels_fragment),
             Program::Clear => (&modules.clear, &modules.clear_fragment),
         };
-        let fragment = match (key.program, key.visibility) {
-            (Program::Draw, Visibility::Written) => &modules.visibility_fragment,
-            _ => fragment,
+        let (vertex, fragment) = match (key.program, key.visibility) {
+            (Program::Draw, Visibility::Kept | Visibility::Written) => {
+                let clipped = key.words.global.clip_planes() != 0;
+                (&modules.visibility[usize::from(clipped)], &modules.visibility_fragment)
+            }
+            _ => (vertex, fragment),
         };
         let constants = constants(key);
         let specialization = Specialization::new(&constants);
@@ -153,15 +158,16 @@ impl Pipelines {
         let multisample = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(vk::SampleCountFlags::TYPE_1);
         let depth_stencil = key.raster.depth_stencil();
-        let attachments = [key.raster.blend_attachment(), key.visibility.attachment()];
-        let count = if key.visibility == Visibility::Absent { 1 } else { 2 };
+        let color = key.raster.blend_attachment();
+        let attachments = [color, key.visibility.attachment(), color];
+        let count = if key.visibility == Visibility::Absent { 1 } else { attachments.len() };
         let mut blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments[..count]);
         if let Some(op) = key.raster.logic_op() {
             blend = blend.logic_op_enable(true).logic_op(op);
         }
         let dynamic_states = self.dynamic_states();
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
-        let color_formats = [COLOR_FORMAT, VISIBILITY_FORMAT];
+        let color_formats = [COLOR_FORMAT, VISIBILITY_FORMAT, COLOR_FORMAT];
         let mut rendering = vk::PipelineRenderingCreateInfo::default()
             .color_attachment_formats(&color_formats[..count])
             .depth_attachment_format(self.depth_format.vulkan)
@@ -239,6 +245,10 @@ impl Modules {
             draw: gpu.create_shader_module("raster.vert", shaders::RASTER_VERT)?,
             draw_clipped: gpu.create_shader_module("clip.vert", shaders::RASTER_CLIP_VERT)?,
             draw_fragment: gpu.create_shader_module("raster.frag", shaders::RASTER_FRAG)?,
+            visibility: [
+                gpu.create_shader_module("visibility.vert", shaders::VISIBILITY_VERT)?,
+                gpu.create_shader_module("visibility clip.vert", shaders::VISIBILITY_CLIP_VERT)?,
+            ],
             visibility_fragment: gpu.create_shader_module("visibility.frag", shaders::VISIBILITY_FRAG)?,
             pixels: gpu.create_shader_module("pixels.vert", shaders::PIXELS_VERT)?,
             pixels_fragment: gpu.create_shader_module("pixels.frag", shaders::PIXELS_FRAG)?,

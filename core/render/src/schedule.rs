@@ -188,10 +188,12 @@ impl Declaring {
             pass.read(self.resources.store, Access::StorageReadFragment);
         }
         if let (Some(views), Some(_)) = (&self.views, step.view) {
-            match self.begun == step.view {
-                true => pass.read_write(views.visibility, Access::ColorAttachment),
-                false => pass.write(views.visibility, Access::ColorAttachment),
-            };
+            for image in [views.visibility, views.albedo] {
+                match self.begun == step.view {
+                    true => pass.read_write(image, Access::ColorAttachment),
+                    false => pass.write(image, Access::ColorAttachment),
+                };
+            }
         }
         self.begun = step.view.or(self.begun);
     }

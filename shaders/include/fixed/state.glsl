@@ -146,17 +146,10 @@ uint effective_base_format(UnitState unit) {
         : unit.depth_mode == DEPTH_MODE_ALPHA ? BASE_FORMAT_ALPHA : BASE_FORMAT_LUMINANCE;
 }
 
+// The numbers of comparisons are bits: 1 where less passes, 2 equal, 4 greater.
 bool compare_passes(uint function, float incoming, float stored) {
-    switch (function) {
-        case COMPARE_NEVER: return false;
-        case COMPARE_LESS: return incoming < stored;
-        case COMPARE_EQUAL: return incoming == stored;
-        case COMPARE_LESS_EQUAL: return incoming <= stored;
-        case COMPARE_GREATER: return incoming > stored;
-        case COMPARE_NOT_EQUAL: return incoming != stored;
-        case COMPARE_GREATER_EQUAL: return incoming >= stored;
-        default: return true;
-    }
+    uint relation = incoming < stored ? 1u : incoming == stored ? 2u : 4u;
+    return function == COMPARE_ALWAYS || (function & relation) != 0u;
 }
 
 #endif

@@ -15,91 +15,60 @@ bool has_alpha(uint base_format) {
     return base_format != BASE_FORMAT_LUMINANCE && base_format != BASE_FORMAT_RGB;
 }
 
-vec4 simple_environment(uint mode, uint base_format, vec4 previous, vec4 texel, vec4 constant) {
-    vec3 color = previous.rgb;
-    float alpha = previous.a;
-    switch (mode) {
-        case ENV_MODE_REPLACE:
-            color = texel.rgb;
-            alpha = texel.a;
-            break;
-        case ENV_MODE_DECAL:
-            color = mix(previous.rgb, texel.rgb, base_format == BASE_FORMAT_RGB ? 1.0 : texel.a);
-            break;
-        case ENV_MODE_BLEND:
-            color = mix(previous.rgb, constant.rgb, texel.rgb);
-            alpha = base_format == BASE_FORMAT_INTENSITY ? mix(previous.a, constant.a, texel.a) : previous.a * texel.a;
-            break;
-        case ENV_MODE_ADD:
-            color = previous.rgb + texel.rgb;
-            alpha = base_format == BASE_FORMAT_INTENSITY ? previous.a + texel.a : previous.a * texel.a;
-            break;
-        default:
-            color = previous.rgb * texel.rgb;
-            alpha = previous.a * texel.a;
-            break;
-    }
-    return vec4(has_color(base_format) ? color : previous.rgb,
-        has_alpha(base_format) && mode != ENV_MODE_DECAL ? alpha : previous.a);
+// One of two colours, both of which are computed.
+vec4 chosen(bool first_one, vec4 first, vec4 second) {
+    return mix(second, first, bvec4(first_one));
 }
 
-vec4 combine_source(uint source, vec4 texels[TEXTURE_UNITS], uint unit, vec4 previous, vec4 primary, vec4 constant) {
-    switch (source) {
-        case COMBINE_SOURCE_PREVIOUS: return previous;
-        case COMBINE_SOURCE_TEXTURE: return texels[unit];
-        case COMBINE_SOURCE_CONSTANT: return constant;
-        case COMBINE_SOURCE_PRIMARY: return primary;
-        case COMBINE_SOURCE_ZERO: return vec4(0.0);
-        case COMBINE_SOURCE_ONE: return vec4(1.0);
-        case COMBINE_SOURCE_TEXTURE0 + 1u: return texels[1];
-        case COMBINE_SOURCE_TEXTURE0 + 2u: return texels[2];
-        case COMBINE_SOURCE_TEXTURE0 + 3u: return texels[3];
-        default: return texels[0];
-    }
+// The modes are all computed and one is chosen: where the mode is a constant, compilers drop the others at once.
+vec4 simple_environment(uint mode, uint base_format, vec4 previous, vec4 texel, vec4 constant) {
+    bool intensity = base_format == BASE_FORMAT_INTENSITY;
+    vec4 product = previous * texel;
+    vec4 decal = vec4(mix(previous.rgb, texel.rgb, base_format == BASE_FORMAT_RGB ? 1.0 : texel.a), previous.a);
+    vec4 blended = mix(previous, constant, texel);
+    vec4 sum = previous + texel;
+    vec4 color = product;
+    color = chosen(mode == ENV_MODE_REPLACE, texel, color);
+    color = chosen(mode == ENV_MODE_DECAL, decal, color);
+    color = chosen(mode == ENV_MODE_BLEND, vec4(blended.rgb, intensity ? blended.a : product.a), color);
+    color = chosen(mode == ENV_MODE_ADD, vec4(sum.rgb, intensity ? sum.a : product.a), color);
+    return mix(previous, color, bvec4(bvec3(has_color(base_format)), has_alpha(base_format)));
 }
 
 vec3 color_operand(uint operand, vec4 source) {
-    switch (operand) {
-        case 0u: return source.rgb;
-        case 1u: return 1.0 - source.rgb;
-        case 2u: return source.aaa;
-        default: return vec3(1.0 - source.a);
-    }
+    vec3 value = mix(source.rgb, source.aaa, bvec3((operand & 2u) != 0u));
+    return mix(value, 1.0 - value, bvec3((operand & 1u) != 0u));
 }
 
 float alpha_operand(uint operand, vec4 source) {
-    return operand == 0u ? source.a : 1.0 - source.a;
+    return mix(source.a, 1.0 - source.a, operand != 0u);
 }
 
-// The combine functions, on three components or on one in all of them.
-vec3 combined(uint function, vec3 arg0, vec3 arg1, vec3 arg2) {
-    switch (function) {
-        case COMBINE_REPLACE: return arg0;
-        case COMBINE_MODULATE: return arg0 * arg1;
-        case COMBINE_ADD: return arg0 + arg1;
-        case COMBINE_ADD_SIGNED: return arg0 + arg1 - 0.5;
-        case COMBINE_INTERPOLATE: return arg0 * arg2 + arg1 * (1.0 - arg2);
-        case COMBINE_SUBTRACT: return arg0 - arg1;
-        default: return vec3(4.0 * dot(arg0 - 0.5, arg1 - 0.5));
-    }
+// The combine functions, on three components of colour and one of alpha; dot products are of colours.
+vec4 combined(uint function, vec4 arg0, vec4 arg1, vec4 arg2) {
+    vec4 value = arg0;
+    value = chosen(function == COMBINE_MODULATE, arg0 * arg1, value);
+    value = chosen(function == COMBINE_ADD, arg0 + arg1, value);
+    value = chosen(function == COMBINE_ADD_SIGNED, arg0 + arg1 - 0.5, value);
+    value = chosen(function == COMBINE_INTERPOLATE, mix(arg1, arg0, arg2), value);
+    value = chosen(function == COMBINE_SUBTRACT, arg0 - arg1, value);
+    return chosen(function >= COMBINE_DOT3_RGB, vec4(4.0 * dot(arg0.rgb - 0.5, arg1.rgb - 0.5)), value);
 }
 
 vec4 combine_environment(
     UnitState state, vec4 texels[TEXTURE_UNITS], uint unit, vec4 previous, vec4 primary, vec4 constant
 ) {
-    vec3 color_args[3];
-    vec3 alpha_args[3];
+    // By COMBINE_SOURCE_ numbers.
+    vec4 sources[COMBINE_SOURCE_TEXTURE0 + TEXTURE_UNITS] = vec4[](previous, texels[unit], constant, primary, vec4(0.0),
+        vec4(1.0), vec4(0.0), vec4(0.0), texels[0], texels[1], texels[2], texels[3]);
+    vec4 args[3];
     [[unroll]] for (uint i = 0u; i < 3u; ++i) {
-        vec4 color_source = combine_source(state.source_rgb[i], texels, unit, previous, primary, constant);
-        vec4 alpha_source = combine_source(state.source_alpha[i], texels, unit, previous, primary, constant);
-        color_args[i] = color_operand(state.operand_rgb[i], color_source);
-        alpha_args[i] = vec3(alpha_operand(state.operand_alpha[i], alpha_source));
+        args[i] = vec4(color_operand(state.operand_rgb[i], sources[state.source_rgb[i]]),
+            alpha_operand(state.operand_alpha[i], sources[state.source_alpha[i]]));
     }
-    vec3 color = combined(state.combine_rgb, color_args[0], color_args[1], color_args[2]);
-    color *= float(1u << state.scale_rgb);
-    float alpha = combined(state.combine_alpha, alpha_args[0], alpha_args[1], alpha_args[2]).x;
-    alpha *= float(1u << state.scale_alpha);
-    return vec4(color, state.combine_rgb == COMBINE_DOT3_RGBA ? color.x : alpha);
+    vec3 color = combined(state.combine_rgb, args[0], args[1], args[2]).rgb * float(1u << state.scale_rgb);
+    float alpha = combined(state.combine_alpha, args[0], args[1], args[2]).a * float(1u << state.scale_alpha);
+    return vec4(color, mix(alpha, color.x, state.combine_rgb == COMBINE_DOT3_RGBA));
 }
 
 // The colour after one unit. `texels` are those of all units.

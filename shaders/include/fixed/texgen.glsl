@@ -29,23 +29,19 @@ TexGenVertex texgen_vertex(vec4 position_object, vec4 position_eye, vec3 positio
     return vertex;
 }
 
-float texgen_coordinate(uint mode, uint coordinate, TexGenVertex vertex, vec4 object_plane, vec4 eye_plane, float given) {
-    switch (mode) {
-        case GEN_OBJECT_LINEAR: return dot(object_plane, vertex.position_object);
-        case GEN_EYE_LINEAR: return dot(eye_plane, vertex.position_eye);
-        case GEN_SPHERE: return coordinate == 0u ? vertex.sphere.x : vertex.sphere.y;
-        case GEN_REFLECTION: return coordinate < 3u ? vertex.reflection[coordinate] : given;
-        case GEN_NORMAL: return coordinate < 3u ? vertex.normal[coordinate] : given;
-        default: return given;
-    }
-}
-
 vec4 texgen(UnitState unit, TexGenUnit planes, TexGenVertex vertex, vec4 given) {
-    vec4 result;
-    [[unroll]] for (uint i = 0u; i < 4u; ++i) {
-        result[i] = texgen_coordinate(unit.gen[i], i, vertex, planes.object[i], planes.eye[i], given[i]);
-    }
-    return result;
+    // Planes are the columns: a vector from the left gives its product with each.
+    vec4 object_linear = vertex.position_object * planes.object;
+    vec4 eye_linear = vertex.position_eye * planes.eye;
+    vec4 sphere = vec4(vertex.sphere, vertex.sphere);
+    vec4 reflection = vec4(vertex.reflection, given.w);
+    vec4 normal = vec4(vertex.normal, given.w);
+    vec4 result = given;
+    result = mix(result, object_linear, equal(unit.gen, uvec4(GEN_OBJECT_LINEAR)));
+    result = mix(result, eye_linear, equal(unit.gen, uvec4(GEN_EYE_LINEAR)));
+    result = mix(result, sphere, equal(unit.gen, uvec4(GEN_SPHERE)));
+    result = mix(result, reflection, equal(unit.gen, uvec4(GEN_REFLECTION)));
+    return mix(result, normal, equal(unit.gen, uvec4(GEN_NORMAL)));
 }
 
 #endif

@@ -16,12 +16,8 @@
 // Where GL_CLAMP wraps a coordinate: bit 0 s, 1 t, 2 r. Its sampler then clamps to the border, which
 // linear filtering so meets by half a texel at most.
 vec3 clamped_coordinates(uint clamps, vec3 coordinates) {
-    if (clamps == 0u) {
-        return coordinates;
-    }
-    vec3 inside = clamp(coordinates, 0.0, 1.0);
-    return vec3((clamps & 1u) != 0u ? inside.x : coordinates.x, (clamps & 2u) != 0u ? inside.y : coordinates.y,
-        (clamps & 4u) != 0u ? inside.z : coordinates.z);
+    bvec3 clamped = bvec3((clamps & 1u) != 0u, (clamps & 2u) != 0u, (clamps & 4u) != 0u);
+    return mix(coordinates, clamp(coordinates, 0.0, 1.0), clamped);
 }
 
 // A depth texel as the environment sees it.

@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 208 bytes
+struct SurfaceDraw { // 192 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -13,14 +13,10 @@ struct SurfaceDraw { // 208 bytes
     uint textures[4];
     uint vertex_layout;
     uint last_vertex;
-    uint triangles;
     uint transform;
     uint material;
     uint environment;
-    uint texgen;
-    uint texture_matrices;
     uint current;
-    uint clamps;
     uint kind;
     uint next_layer;
     uint blend;
@@ -38,7 +34,7 @@ struct MeshMember { // 8 bytes
 
 #ifndef STRUCT_LightSource
 #define STRUCT_LightSource
-struct LightSource { // 64 bytes
+struct LightSource { // 80 bytes
     vec3 position;
     float radius;
     vec3 color;
@@ -47,12 +43,14 @@ struct LightSource { // 64 bytes
     float spot_cos_cutoff;
     vec3 spot_axis;
     float spot_exponent;
+    vec3 specular;
+    uint padding;
 };
 #endif
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 160 bytes
+struct ViewRecord { // 176 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
@@ -62,11 +60,14 @@ struct ViewRecord { // 160 bytes
     uint64_t light;
     uint64_t indirect;
     uint64_t sums;
+    uint64_t movers;
     uint64_t exposure;
     uint width;
     uint height;
     uint visibility;
     uint color;
+    uint albedo;
+    uint padding;
     uint light_count;
     uint samples;
     uint accumulated;
@@ -105,16 +106,24 @@ struct LightTexel { // 36 bytes
 
 #ifndef STRUCT_ExposureSum
 #define STRUCT_ExposureSum
-struct ExposureSum { // 16 bytes
-    vec2 traced;
-    vec2 program;
+struct ExposureSum { // 8 bytes
+    float traced;
+    float program;
+};
+#endif
+
+#ifndef STRUCT_MoverSum
+#define STRUCT_MoverSum
+struct MoverSum { // 8 bytes
+    uint traced;
+    uint program;
 };
 #endif
 
 #ifndef STRUCT_Exposure
 #define STRUCT_Exposure
-struct Exposure { // 8 bytes
-    vec2 scale;
+struct Exposure { // 4 bytes
+    float scale;
 };
 #endif
 

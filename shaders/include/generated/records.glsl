@@ -121,4 +121,6 @@ struct AccumulatePush { // 64 bytes
 #define ACCUMULATE_ADD 4u
 #define ACCUMULATE_CLEAR 5u
 
+#define WHITE_ALBEDO 2147483648u
+
 #endif

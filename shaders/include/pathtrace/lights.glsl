@@ -10,15 +10,15 @@
 
 #define LONGEST_RAY 1e9
 
-// What a surface that faces the light would show if it were white, falloff and spot as OpenGL has them
-// (OpenGL 1.5, section 2.14.1); the unit vector to a point of the light, and how far that is. `random`
-// chooses the point; 0.5 is the middle.
-vec3 light_towards(LightSource light, vec3 position, vec2 random, out vec3 direction, out float reach) {
+// How much of a light's colour reaches a place, by falloff and spot as OpenGL has them (OpenGL 1.5, section
+// 2.14.1); the unit vector to a point of the light, and how far that is. `random` chooses the point; 0.5 is the
+// middle.
+float light_towards(LightSource light, vec3 position, vec2 random, out vec3 direction, out float reach) {
     vec2 disc = disc_point(random) * light.radius;
     if (light.has_place == 0u) {
         direction = normalize(light.position + tangents(light.position) * disc);
         reach = LONGEST_RAY;
-        return light.color;
+        return 1.0;
     }
     vec3 to_center = light.position - position;
     float away = length(to_center);
@@ -33,7 +33,7 @@ vec3 light_towards(LightSource light, vec3 position, vec2 random, out vec3 direc
     direction = unit_vector(to_point);
     // What holds the light, a lamp or a flame, must not hide it.
     reach = max(reach - 1.5 * light.radius, 0.0);
-    return light.color * strength;
+    return strength;
 }
 
 // A light with a chance proportional to what it would bring unshadowed; `random` in [0, 1).
@@ -44,8 +44,9 @@ uint chosen_light(ViewRecord view, vec3 position, vec3 normal, float random, out
     for (uint i = 0u; i < view.light_count; ++i) {
         vec3 direction;
         float reach;
-        vec3 color = light_towards(LightSourceTable(view.lights).entries[i], position, vec2(0.5), direction, reach);
-        float brings = luminance(color) * max(dot(normal, direction), 0.0);
+        LightSource light = LightSourceTable(view.lights).entries[i];
+        float strength = light_towards(light, position, vec2(0.5), direction, reach);
+        float brings = strength * luminance(light.color) * max(dot(normal, direction), 0.0);
         sum += brings;
         // Reservoir sampling with one number, stretched again after each choice.
         float chance = sum > 0.0 ? brings / sum : 0.0;
@@ -67,8 +68,9 @@ vec3 open_light(ViewRecord view, vec3 position, vec3 normal) {
     for (uint i = 0u; i < view.light_count; ++i) {
         vec3 direction;
         float reach;
-        vec3 color = light_towards(LightSourceTable(view.lights).entries[i], position, vec2(0.5), direction, reach);
-        sum += color * max(dot(normal, direction), 0.0);
+        LightSource light = LightSourceTable(view.lights).entries[i];
+        float strength = light_towards(light, position, vec2(0.5), direction, reach);
+        sum += strength * light.color * max(dot(normal, direction), 0.0);
     }
     return sum;
 }

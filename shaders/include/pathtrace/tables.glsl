@@ -18,6 +18,7 @@ TEXELS(SurfaceTexels, SurfaceTexel);
 TEXELS(LightTexels, LightTexel);
 TEXELS(ColorTexels, vec4);
 TEXELS(ExposureSums, ExposureSum);
+TEXELS(MoverSums, MoverSum);
 TEXELS(ExposureBuffer, Exposure);
 
 uvec2 view_size(ViewRecord view) {

@@ -19,6 +19,12 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 // program's own guess.
 const float MOVER_TRACED = 0.6;
 
+// What makes a moving draw as bright as the program has it.
+float mover_scale(ViewRecord view, uint draw) {
+    MoverSum sum = MoverSums(view.movers).entries[draw];
+    return sum.traced == 0u || sum.program == 0u ? 1.0 : clamp(float(sum.program) / float(sum.traced), 0.0625, 16.0);
+}
+
 vec3 kind_color(uint kind) {
     const vec3 colors[5] = vec3[5](vec3(0.0), vec3(1.0, 0.8, 0.2), vec3(0.3, 0.6, 1.0), vec3(0.4, 0.8, 0.4), vec3(1.0, 0.4, 0.4));
     return colors[min(kind, 4u)];
@@ -36,13 +42,13 @@ vec3 painted(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indir
 
 vec3 composited(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indirect, vec3 program, uvec2 pixel) {
     uint kind = surface_kind(surface);
-    vec2 exposure = ExposureBuffer(view.exposure).entries[0].scale;
-    float scale = kind == SURFACE_LIT ? exposure.x : kind == SURFACE_BAKED_MOVER ? exposure.y : 1.0;
+    uint draw = imageLoad(visibility_images[view.visibility], ivec2(pixel)).x - 1u;
+    float scale = kind == SURFACE_LIT ? ExposureBuffer(view.exposure).entries[0].scale
+        : kind == SURFACE_BAKED_MOVER ? mover_scale(view, draw) : 1.0;
     vec3 shown = srgb_from_linear(min(radiance(surface, light, indirect, linear_from_srgb(program)) * scale, 1.0));
     if (kind == SURFACE_LIT || kind == SURFACE_BAKED_MOVER) {
         float fog = unpack_fourth(surface.albedo);
         if (fog < 1.0) {
-            uint draw = imageLoad(visibility_images[view.visibility], ivec2(pixel)).x - 1u;
             shown = mix(fog_color(view, draw), shown, fog);
         }
     }

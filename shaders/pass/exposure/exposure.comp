@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 const float LEAST = 0.25;
 const float MOST = 4.0;
 
-shared vec4 sums[64];
+shared vec2 sums[64];
 
 float scale_for(float traced, float program) {
     return traced > 0.0 && program > 0.0 ? clamp(program / traced, LEAST, MOST) : 1.0;
@@ -23,10 +23,10 @@ float scale_for(float traced, float program) {
 void main() {
     ViewRecord view = ViewTable(push.view).entries[0];
     uint thread = gl_LocalInvocationIndex;
-    vec4 sum = vec4(0.0);
+    vec2 sum = vec2(0.0);
     for (uint i = thread; i < view.sum_count; i += 64u) {
         ExposureSum part = ExposureSums(view.sums).entries[i];
-        sum += vec4(part.traced, part.program);
+        sum += vec2(part.traced, part.program);
     }
     sums[thread] = sum;
     barrier();
@@ -37,9 +37,9 @@ void main() {
         barrier();
     }
     if (thread == 0u) {
-        vec2 now = vec2(scale_for(sums[0].x, sums[0].z), scale_for(sums[0].y, sums[0].w));
+        float now = scale_for(sums[0].x, sums[0].y);
         ExposureBuffer exposure = ExposureBuffer(view.exposure);
-        vec2 before = view.exposure_rate < 1.0 ? exposure.entries[0].scale : now;
-        exposure.entries[0].scale = before * pow(now / before, vec2(view.exposure_rate));
+        float before = view.exposure_rate < 1.0 ? exposure.entries[0].scale : now;
+        exposure.entries[0].scale = before * pow(now / before, view.exposure_rate);
     }
 }

@@ -1,4 +1,5 @@
-// Luminance of the traced picture and of the program's own, summed over each workgroup's pixels.
+// Luminance of the traced picture and of the program's own: lit pixels summed over each workgroup, others over
+// each moving draw, in integers, whose order does not matter.
 #version 460
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_nonuniform_qualifier : require
@@ -15,34 +16,43 @@ layout(set = 0, binding = 4, rgba8) uniform image2D color_images[];
 
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 
-// Traced and program's luminance of lit pixels, then of moving ones among baked surfaces.
-shared vec4 sums[256];
+// Units of a mover's sums.
+const float MOVER_SCALE = 256.0;
 
-vec4 pixel_sums(ViewRecord view, uvec2 pixel) {
+// Traced and program's luminance of lit pixels.
+shared vec2 sums[256];
+
+vec2 pixel_sums(ViewRecord view, uvec2 pixel) {
     uint index = pixel.y * view.width + pixel.x;
     SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
     uint kind = surface_kind(surface);
     if (kind != SURFACE_LIT && kind != SURFACE_BAKED_MOVER) {
-        return vec4(0.0);
+        return vec2(0.0);
     }
+    uint draw = imageLoad(visibility_images[view.visibility], ivec2(pixel)).x - 1u;
     vec3 program = imageLoad(color_images[view.color], ivec2(pixel)).rgb;
     float fog = unpack_fourth(surface.albedo);
     if (fog < 1.0) {
-        uint draw = imageLoad(visibility_images[view.visibility], ivec2(pixel)).x - 1u;
         program = clamp((program - (1.0 - fog) * fog_color(view, draw)) / max(fog, 0.05), 0.0, 1.0);
     }
     program = linear_from_srgb(program);
     vec3 indirect = ColorTexels(view.indirect).entries[index].rgb;
     vec3 traced = radiance(surface, LightTexels(view.light).entries[index], indirect, program);
     vec2 pair = fog * vec2(luminance(min(traced, 4.0)), luminance(program));
-    return kind == SURFACE_LIT ? vec4(pair, 0.0, 0.0) : vec4(0.0, 0.0, pair);
+    if (kind == SURFACE_LIT) {
+        return pair;
+    }
+    uvec2 units = uvec2(pair * MOVER_SCALE + 0.5);
+    atomicAdd(MoverSums(view.movers).entries[draw].traced, units.x);
+    atomicAdd(MoverSums(view.movers).entries[draw].program, units.y);
+    return vec2(0.0);
 }
 
 void main() {
     ViewRecord view = ViewTable(push.view).entries[0];
     uint thread = gl_LocalInvocationIndex;
     bool is_inside = all(lessThan(gl_GlobalInvocationID.xy, view_size(view)));
-    sums[thread] = is_inside ? pixel_sums(view, gl_GlobalInvocationID.xy) : vec4(0.0);
+    sums[thread] = is_inside ? pixel_sums(view, gl_GlobalInvocationID.xy) : vec2(0.0);
     barrier();
     for (uint half_count = 128u; half_count > 0u; half_count >>= 1) {
         if (thread < half_count) {
@@ -52,6 +62,6 @@ void main() {
     }
     if (thread == 0u) {
         uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-        ExposureSums(view.sums).entries[group] = ExposureSum(sums[0].xz, sums[0].yw);
+        ExposureSums(view.sums).entries[group] = ExposureSum(sums[0].x, sums[0].y);
     }
 }

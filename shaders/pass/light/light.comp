@@ -22,8 +22,6 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 
 // Radiance that one sample brings at most: rare paths must not leave bright dots.
 const float MOST_RADIANCE = 16.0;
-// Tangent of what a secondary ray covers: wide, because it stands for many.
-const float RAY_SPREAD = 0.05;
 // How dark things that touch a surface with baked light make it.
 const float CONTACT_STRENGTH = 0.85;
 
@@ -33,11 +31,15 @@ uint member_of(ViewRecord view, uint instance, uint primitive, out uint triangle
     return member.draw;
 }
 
+vec3 corner_weights(vec2 barycentrics) {
+    return vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
+}
+
 bool accept_hit(uint instance, uint primitive, vec2 barycentrics) {
     ViewRecord view = ViewTable(push.view).entries[0];
     uint triangle;
     uint draw = member_of(view, instance, primitive, triangle);
-    return passes_alpha_test(view, draw, triangle, barycentrics);
+    return is_solid(view, draw, triangle, corner_weights(barycentrics));
 }
 
 // A surface that light is found for: the pixel's, or one that a ray has met.
@@ -55,34 +57,27 @@ vec3 met_light(ViewRecord view, Hit hit, vec3 direction, out Place place) {
     uint triangle;
     uint draw_index = member_of(view, hit.instance, hit.primitive, triangle);
     DrawReference draw = surface_draw(view, draw_index);
-    GlobalState state = global_state(draw);
-    uint64_t corners[3] = corner_addresses(draw, triangle);
-    vec4 positions[3] = corner_positions(draw, corners);
-    vec3 world[3];
-    for (uint i = 0u; i < 3u; ++i) {
-        world[i] = world_position(draw, positions[i]);
-    }
-    TrianglePoint point = hit_point(triangle, hit.barycentrics, world, hit.t * RAY_SPREAD);
-    vec3 weights = point.weights[0];
-    vec3 geometric = unit_vector(cross(world[1] - world[0], world[2] - world[0]));
-    geometric = dot(geometric, direction) > 0.0 ? -geometric : geometric;
-    vec3 normal = given_normal(view, draw, corners, weights, state.lighting);
-    normal = normal == vec3(0.0) ? geometric : dot(normal, geometric) < 0.0 ? -normal : normal;
-    vec3 color = linear_from_srgb(unlit_color(view, draw_index, point, false).rgb);
-
-    vec4 position_object = positions[0] * weights.x + positions[1] * weights.y + positions[2] * weights.z;
-    float reach = length(draw.it.object_to_world[0].xyz) * max(max(abs(position_object.x), abs(position_object.y)), abs(position_object.z));
-    place.start = offset_ray(world_position(draw, position_object), geometric) + geometric * (reach * 4e-6);
+    vec3 weights = corner_weights(hit.barycentrics);
+    vec4 positions[3] = corner_positions(draw, triangle);
+    vec3 first = world_position(draw, positions[0]);
+    vec3 edge_1 = world_position(draw, positions[1]) - first;
+    vec3 edge_2 = world_position(draw, positions[2]) - first;
+    vec3 normal = unit_vector(cross(edge_1, edge_2));
+    normal = dot(normal, direction) > 0.0 ? -normal : normal;
+    vec3 position = first + edge_1 * weights.y + edge_2 * weights.z;
+    place.start = offset_ray(position, normal) + normal * start_distance(draw, dehomogenized(positions[0]));
     place.normal = normal;
-    place.geometric = geometric;
+    place.geometric = normal;
     place.mask = MASK_STATIC | MASK_MOVING;
     place.weight = vec3(0.0);
+    vec3 color = linear_from_srgb(unlit_color(view, draw_index, triangle, weights));
     if (draw.it.kind != SURFACE_LIT) {
         return color;
     }
     place.weight = color;
-    MaterialFace material = point_material(view, draw, state, vertex_color(view, draw, state, corners, weights));
-    return color * view.ambient + linear_from_srgb(material.emission.rgb);
+    MaterialTable materials = MaterialTable(FrameTable(view.frame).entries[0].materials);
+    vec3 emission = materials.entries[draw.it.material].faces[0].emission.rgb;
+    return color * view.ambient + (global_state(draw).lighting ? linear_from_srgb(emission) : vec3(0.0));
 }
 
 // The ray that a stage of a sample sends.
@@ -90,6 +85,7 @@ struct RayPlan {
     vec3 direction;
     float reach;
     vec3 color; // of the light at its end
+    vec3 specular;
     bool is_worth_it;
 };
 
@@ -98,22 +94,26 @@ struct Sums {
     vec3 direct;
     vec3 indirect;
     vec3 specular;
+    // Rays that bounced and met nothing.
+    float missed;
 };
 
 RayPlan plan_contact(Place place, vec2 numbers, float reach) {
-    return RayPlan(cosine_direction(place.normal, numbers), reach, vec3(0.0), true);
+    return RayPlan(cosine_direction(place.normal, numbers), reach, vec3(0.0), vec3(0.0), true);
 }
 
 RayPlan plan_bounce(Place place, vec2 numbers) {
     vec3 direction = cosine_direction(place.normal, numbers);
-    return RayPlan(direction, LONGEST_RAY, vec3(0.0), dot(place.geometric, direction) > 0.0);
+    return RayPlan(direction, LONGEST_RAY, vec3(0.0), vec3(0.0), dot(place.geometric, direction) > 0.0);
 }
 
 RayPlan plan_shadow(ViewRecord view, Place place, uint light, float inverse_chance, vec2 numbers) {
-    RayPlan plan = RayPlan(place.normal, 0.0, vec3(0.0), false);
+    RayPlan plan = RayPlan(place.normal, 0.0, vec3(0.0), vec3(0.0), false);
     if (light < view.light_count) {
         LightSource source = LightSourceTable(view.lights).entries[light];
-        plan.color = inverse_chance * light_towards(source, place.start, numbers, plan.direction, plan.reach);
+        float strength = inverse_chance * light_towards(source, place.start, numbers, plan.direction, plan.reach);
+        plan.color = strength * source.color;
+        plan.specular = strength * source.specular;
         plan.is_worth_it = dot(place.normal, plan.direction) > 0.0 && plan.color != vec3(0.0);
     }
     return plan;
@@ -122,7 +122,7 @@ RayPlan plan_shadow(ViewRecord view, Place place, uint light, float inverse_chan
 // Samples of a pixel. Of surfaces that lights reach, a sample is a shadow ray to each light, one ray that
 // bounces, and a shadow ray from where that ends; among baked surfaces it is one ray.
 Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel) {
-    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0));
+    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
     uint kind = surface_kind(surface);
     bool in_contact = kind == SURFACE_BAKED;
     vec3 to_viewer = unit_vector(-surface.start);
@@ -161,7 +161,7 @@ Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel
             } else if (met) {
                 sums.indirect += min(met_light(view, hit, plan.direction, place), MOST_RADIANCE);
             } else {
-                sums.indirect += plan.is_worth_it ? view.sky + view.ambient : vec3(0.0);
+                sums.missed += plan.is_worth_it ? 1.0 : 0.0;
                 place.weight = vec3(0.0);
             }
         } else if (plan.is_worth_it && !met) {
@@ -169,7 +169,7 @@ Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel
             if (stage < bounce) {
                 sums.direct += brought;
                 float glint = max(dot(place.normal, unit_vector(plan.direction + to_viewer)), 0.0);
-                sums.specular += plan.color * linear_from_srgb(specular_color * power(glint, shininess));
+                sums.specular += plan.specular * linear_from_srgb(specular_color * power(glint, shininess));
             } else {
                 sums.indirect += min(place.weight * brought, MOST_RADIANCE);
             }
@@ -196,6 +196,12 @@ LightTexel found_light(ViewRecord view, SurfaceTexel surface, uint index) {
     seen.mask = surface_ray_mask(surface);
     seen.weight = vec3(0.0);
     Sums sums = gather(view, surface, seen, hash(index + hash(view.seed)));
+    vec3 open = view.sky + view.ambient;
+    if (kind == SURFACE_BAKED_MOVER) {
+        // Where nothing was met there may be walls that were not drawn: it is no darker there than elsewhere.
+        open = max(open, sums.indirect / max(float(view.samples) - sums.missed, 1.0));
+    }
+    sums.indirect += sums.missed * open;
     vec3 scale = vec3(1.0 / float(view.samples));
     vec3 light_scale = scale;
     if (kind == SURFACE_CATCHER) {

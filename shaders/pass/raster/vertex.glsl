@@ -34,22 +34,21 @@ layout(location = 15) flat out vec4 out_flat_albedo;
 
 invariant gl_Position;
 
-// The colours of a side, 0 front or 1 back, clamped as they are before interpolation.
-LitColors side_colors(
-    GlobalState state, FrameRecord frame, DrawRecord draw, uint side, vec4 color, vec3 secondary, vec3 position, vec3 normal
+// The colours of both sides, clamped as they are before interpolation.
+void side_colors(
+    GlobalState state, FrameRecord frame, DrawRecord draw, vec4 color, vec3 secondary, vec3 position, vec3 normal,
+    out LitColors front, out LitColors back
 ) {
-    LitColors colors;
+    front = LitColors(color, secondary);
+    back = front;
     if (state.lighting) {
-        MaterialFace material = MaterialTable(frame.materials).entries[draw.material].faces[side];
-        material = followed_material(state, material, side, color);
-        colors = light_side(state, LightsTable(frame.lights), draw.lights, material, position, side == 0u ? normal : -normal);
-    } else {
-        colors.primary = color;
-        colors.secondary = secondary;
+        MaterialTable materials = MaterialTable(frame.materials);
+        light_vertex(state, LightsTable(frame.lights), draw.lights,
+            followed_material(state, materials.entries[draw.material].faces[0], 0u, color),
+            followed_material(state, materials.entries[draw.material].faces[1], 1u, color), position, normal, front, back);
     }
-    colors.primary = clamp(colors.primary, 0.0, 1.0);
-    colors.secondary = clamp(colors.secondary, 0.0, 1.0);
-    return colors;
+    front = LitColors(clamp(front.primary, 0.0, 1.0), clamp(front.secondary, 0.0, 1.0));
+    back = LitColors(clamp(back.primary, 0.0, 1.0), clamp(back.secondary, 0.0, 1.0));
 }
 
 // Size in pixels (OpenGL 1.5, section 3.3). Without antialiasing it is rounded, unless sprites are drawn.
@@ -83,16 +82,13 @@ void main() {
     vec3 position = dehomogenized(position_eye);
     vec3 normal = normal_eye(state, transforms.entries[draw.transform].normal, normal_object);
 
-    LitColors front = side_colors(state, frame, draw, 0u, color, secondary.rgb, position, normal);
+    LitColors front;
+    LitColors back;
+    side_colors(state, frame, draw, color, secondary.rgb, position, normal, front, back);
     out_primary = front.primary;
     out_secondary = front.secondary;
-    out_back_primary = front.primary;
-    out_back_secondary = front.secondary;
-    if (state.lighting && state.two_side) {
-        LitColors back = side_colors(state, frame, draw, 1u, color, secondary.rgb, position, normal);
-        out_back_primary = back.primary;
-        out_back_secondary = back.secondary;
-    }
+    out_back_primary = back.primary;
+    out_back_secondary = back.secondary;
 #ifdef WITH_VISIBILITY
     if (state.lighting) {
         MaterialFace material = MaterialTable(frame.materials).entries[draw.material].faces[0];

@@ -9,111 +9,115 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "fixed/fog.glsl"
-#include "pathtrace/hit.glsl"
 #include "pathtrace/surface.glsl"
+#include "pathtrace/vertices.glsl"
 #include "ray.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2D visibility_images[];
+layout(set = 0, binding = 4, rgba8) uniform readonly image2D color_images[];
 
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 
-// Weights of a triangle's corners at a point of the viewport, by clip coordinates x, y, w of the corners
-// (Olano and Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997).
-vec3 weights_at(mat3 edges, vec2 point) {
-    vec3 weights = vec3(point, 1.0) * edges;
+// Weights of a triangle's corners at a pixel, by clip coordinates x, y, w of the corners (Olano and Greer,
+// Triangle Scan Conversion using 2D Homogeneous Coordinates, 1997).
+vec3 seen_weights(ViewRecord view, DrawReference draw, vec3 clip[3], uvec2 pixel) {
+    vec4 viewport = draw.it.viewport;
+    vec2 from_below = vec2(float(pixel.x) + 0.5, float(view.height) - float(pixel.y) - 0.5);
+    vec3 at = vec3((from_below - viewport.xy) / viewport.zw * 2.0 - 1.0, 1.0);
+    vec3 weights = at * mat3(cross(clip[1], clip[2]), cross(clip[2], clip[0]), cross(clip[0], clip[1]));
     return weights / (weights.x + weights.y + weights.z);
 }
 
-TrianglePoint seen_point(ViewRecord view, FrameRecord frame, DrawReference draw, uint triangle, vec4 positions[3], uvec2 pixel) {
-    mat4 matrix = TransformTable(frame.transforms).entries[draw.it.transform].modelview_projection;
-    vec3 clip[3];
-    for (uint i = 0u; i < 3u; ++i) {
-        clip[i] = (matrix * positions[i]).xyw;
+// How a pixel's surface faces, and where its rays start.
+struct Facing {
+    vec3 normal;
+    vec3 geometric;
+    vec3 start;
+};
+
+// The shading normal is the program's, on the side that is seen. So that the shadows of smooth normals do not show
+// the triangles, rays start above the flat triangle, as far as the corners' tangent planes are (Hanika, Hacking the
+// Shadow Terminator, Ray Tracing Gems II, 2021).
+Facing facing(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, vec3 world[3], bool lighting) {
+    Facing result;
+    vec3 position = world[0] * weights.x + world[1] * weights.y + world[2] * weights.z;
+    vec3 geometric = unit_vector(cross(world[1] - world[0], world[2] - world[0]));
+    result.geometric = dot(geometric, position) > 0.0 ? -geometric : geometric;
+    result.start = position;
+    uint format = layout_format(draw.it.vertex_layout, SLOT_NORMAL);
+    mat3x4 rows = draw.it.object_to_world;
+    vec3 normal = vec3(0.0);
+    if (format != FORMAT_ABSENT) {
+        uint first = layout_offset(draw.it.vertex_layout, SLOT_NORMAL);
+        [[dont_unroll]] for (uint i = 0u; i < 3u; ++i) {
+            vec3 given = read_attribute(corner_vertex(draw, triangle, i), first, format).xyz;
+            vec3 own = unit_vector(world_normal(rows, given));
+            own = dot(own, result.geometric) < 0.0 ? -own : own;
+            normal += weights[i] * own;
+            result.start -= weights[i] * min(dot(position - world[i], own), 0.0) * own;
+        }
+    } else if (lighting) {
+        CurrentTable current = CurrentTable(FrameTable(view.frame).entries[0].current);
+        normal = world_normal(rows, current.entries[draw.it.current].normal.xyz);
+        normal = dot(normal, result.geometric) < 0.0 ? -normal : normal;
     }
-    mat3 edges = mat3(cross(clip[1], clip[2]), cross(clip[2], clip[0]), cross(clip[0], clip[1]));
-    vec4 viewport = draw.it.viewport;
-    vec2 from_below = vec2(float(pixel.x) + 0.5, float(view.height) - float(pixel.y) - 0.5);
-    vec2 at = (from_below - viewport.xy) / viewport.zw * 2.0 - 1.0;
-    vec2 step = 2.0 / viewport.zw;
-    TrianglePoint point;
-    point.triangle = triangle;
-    point.weights[0] = weights_at(edges, at);
-    point.weights[1] = weights_at(edges, at + vec2(step.x, 0.0)) - point.weights[0];
-    point.weights[2] = weights_at(edges, at + vec2(0.0, step.y)) - point.weights[0];
-    return point;
+    normal = unit_vector(normal);
+    result.normal = normal == vec3(0.0) ? result.geometric : normal;
+    return result;
 }
 
-// Where rays start, so that smooth normals' shadows do not show the triangles: above the flat triangle as
-// far as the corners' tangent planes are (Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021).
-vec3 rounded(DrawReference draw, uint64_t corners[3], vec3 weights, vec3 world[3], vec3 flat_position, vec3 towards) {
-    if (layout_format(draw.it.vertex_layout, SLOT_NORMAL) == FORMAT_ABSENT) {
-        return flat_position;
-    }
-    vec3 position = flat_position;
-    for (uint i = 0u; i < 3u; ++i) {
-        vec3 normal = unit_vector(world_normal(draw, corner_attribute(draw, corners[i], SLOT_NORMAL).xyz));
-        normal = dot(normal, towards) < 0.0 ? -normal : normal;
-        position -= weights[i] * min(dot(flat_position - world[i], normal), 0.0) * normal;
-    }
-    return position;
-}
-
-// How much of the program's fog lies before the point: 1 is none.
-float fog_left(FrameRecord frame, DrawReference draw, GlobalState state, uint64_t corners[3], vec3 weights, vec4 position_object) {
+// How much of the program's fog lies before a point so far away: 1 is none.
+float fog_left(ViewRecord view, DrawReference draw, GlobalState state, uint triangle, vec3 weights, float away) {
     if (state.fog_mode == FOG_NONE) {
         return 1.0;
     }
-    Environment environment = EnvironmentTable(frame.environments).entries[draw.it.environment];
-    vec4 eye = TransformTable(frame.transforms).entries[draw.it.transform].modelview * position_object;
-    vec4 absent = CurrentTable(frame.current).entries[draw.it.current].fog;
-    float coordinate = state.fog_coordinate
-        ? weighted_attribute(draw, corners, SLOT_FOG, weights, absent).x : abs(dehomogenized(eye).z);
-    float range = environment.fog_end - environment.fog_start;
-    return fog_factor(state.fog_mode, coordinate, environment.fog_density, environment.fog_end, range == 0.0 ? 0.0 : 1.0 / range);
+    FrameRecord frame = FrameTable(view.frame).entries[0];
+    EnvironmentTable environments = EnvironmentTable(frame.environments);
+    float end = environments.entries[draw.it.environment].fog_end;
+    float range = end - environments.entries[draw.it.environment].fog_start;
+    if (state.fog_coordinate) {
+        vec4 absent = CurrentTable(frame.current).entries[draw.it.current].fog;
+        away = attribute_at(draw, triangle, weights, SLOT_FOG, absent).x;
+    }
+    float density = environments.entries[draw.it.environment].fog_density;
+    return fog_factor(state.fog_mode, away, density, end, range == 0.0 ? 1.0 : 1.0 / range);
+}
+
+uint byte_of(float value) {
+    return uint(clamp(value, 0.0, 1.0) * 255.0 + 0.5);
 }
 
 SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint triangle) {
-    FrameRecord frame = FrameTable(view.frame).entries[0];
     DrawReference draw = surface_draw(view, draw_index);
     GlobalState state = global_state(draw);
-    uint64_t corners[3] = corner_addresses(draw, triangle);
-    vec4 positions[3] = corner_positions(draw, corners);
-    TrianglePoint point = seen_point(view, frame, draw, triangle, positions, pixel);
-    vec3 weights = point.weights[0];
-
+    mat4 matrix = TransformTable(FrameTable(view.frame).entries[0].transforms).entries[draw.it.transform].modelview_projection;
+    vec4 positions[3] = corner_positions(draw, triangle);
+    vec3 clip[3];
     vec3 world[3];
-    vec4 position_object = vec4(0.0);
-    for (uint i = 0u; i < 3u; ++i) {
+    [[dont_unroll]] for (uint i = 0u; i < 3u; ++i) {
+        clip[i] = (matrix * positions[i]).xyw;
         world[i] = world_position(draw, positions[i]);
-        position_object += weights[i] * positions[i];
     }
-    vec3 position = world_position(draw, position_object);
-    vec3 geometric = unit_vector(cross(world[1] - world[0], world[2] - world[0]));
-    geometric = dot(geometric, position) > 0.0 ? -geometric : geometric;
-    vec3 normal = given_normal(view, draw, corners, weights, state.lighting);
-    normal = normal == vec3(0.0) ? geometric : dot(normal, geometric) < 0.0 ? -normal : normal;
+    vec3 weights = seen_weights(view, draw, clip, pixel);
+    Facing facing = facing(view, draw, triangle, weights, world, state.lighting);
 
     SurfaceTexel texel;
-    // The matrices of the world's instances are rounded: the more so, the farther the object reaches.
-    float reach = length(draw.it.object_to_world[0].xyz) * max(max(abs(position_object.x), abs(position_object.y)), abs(position_object.z));
-    vec3 start = rounded(draw, corners, weights, world, position, geometric);
-    texel.start = offset_ray(start, geometric) + geometric * (reach * 4e-6);
-    texel.normal = pack_unit_vector(normal);
-    texel.geometric = pack_unit_vector(geometric);
-    texel.albedo = 0u;
+    texel.start = offset_ray(facing.start, facing.geometric)
+        + facing.geometric * start_distance(draw, dehomogenized(positions[0]));
+    texel.normal = pack_unit_vector(facing.normal);
+    texel.geometric = pack_unit_vector(facing.geometric);
+    // In perspective, w is the distance along the view.
+    float away = abs(weights.x * clip[0].z + weights.y * clip[1].z + weights.z * clip[2].z);
+    float fog = fog_left(view, draw, state, triangle, weights, away);
+    texel.albedo = pack_color(imageLoad(color_images[view.albedo], ivec2(pixel)).rgb, byte_of(fog));
     texel.specular = 0u;
     vec3 emission = vec3(0.0);
-    float fog = 1.0;
-    if (draw.it.kind == SURFACE_LIT || draw.it.kind == SURFACE_BAKED_MOVER) {
-        vec3 albedo = unlit_color(view, draw_index, point, draw.it.kind == SURFACE_BAKED_MOVER).rgb;
-        fog = fog_left(frame, draw, state, corners, weights, position_object);
-        texel.albedo = pack_color(albedo, uint(fog * 255.0 + 0.5));
-    }
-    if (draw.it.kind == SURFACE_LIT) {
-        MaterialFace material = point_material(view, draw, state, vertex_color(view, draw, state, corners, weights));
-        texel.specular = pack_color(clamp(material.specular.rgb, 0.0, 1.0), uint(clamp(material.shininess / 128.0, 0.0, 1.0) * 255.0 + 0.5));
+    if (draw.it.kind == SURFACE_LIT && state.lighting) {
+        vec4 color = state.color_material_faces == 0u ? vec4(0.0) : vertex_color(view, draw, state, triangle, weights);
+        MaterialFace material = point_material(view, draw, state, color);
+        texel.specular = pack_color(clamp(material.specular.rgb, 0.0, 1.0), byte_of(material.shininess / 128.0));
         emission = clamp(material.emission.rgb, 0.0, 1.0);
     }
     texel.emission = pack_color(emission, draw.it.kind | draw.it.ray_mask << 4);

@@ -51,6 +51,7 @@ pub fn pathtrace() -> Vec<StructDescription> {
         SurfaceTexel,
         LightTexel,
         ExposureSum,
+        MoverSum,
         Exposure,
         ViewPush,
     ]

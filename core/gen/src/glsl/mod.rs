@@ -8,7 +8,7 @@ mod lists;
 
 use afterglow_gl::frame::{CLIP_PLANES, GlobalWords, LIGHTS, SLOTS, STATE_WORDS, TEXTURE_UNITS, UnitWords};
 use afterglow_layout::StructDescription;
-use afterglow_records::{BlendWord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT};
+use afterglow_records::{BlendWord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, WHITE_ALBEDO};
 
 use self::constants::{enumerations, record_enumerations, surface_enumerations};
 
@@ -43,7 +43,8 @@ pub fn gl_blocks() -> String {
 
 /// What the renderer writes for its shaders, beside the frame's own blocks.
 pub fn records() -> String {
-    let text = structures(&lists::records()) + "\n" + &record_enumerations();
+    let mut text = structures(&lists::records()) + "\n" + &record_enumerations();
+    text += &format!("\n#define WHITE_ALBEDO {WHITE_ALBEDO}u\n");
     guarded("GENERATED_RECORDS", &text)
 }
 

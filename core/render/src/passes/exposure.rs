@@ -8,6 +8,14 @@ use crate::schedule::Resources;
 /// Why no exposure is found.
 const NOT_NEEDED: &str = "the program's colours are its light";
 
+/// Sums of moving draws begin at zero.
+pub(crate) fn declare_clear(graph: &mut GraphBuilder, views: &ViewResources, needs: &ViewNeeds) {
+    graph
+        .pass("exposure clear", PassKind::Transfer)
+        .write(views.movers, Access::TransferDst)
+        .when(!needs.is_idle, IDLE_REASON);
+}
+
 pub(crate) fn declare_sum(
     graph: &mut GraphBuilder,
     frame: &Resources,
@@ -15,16 +23,18 @@ pub(crate) fn declare_sum(
     view: usize,
     needs: &ViewNeeds,
 ) {
-    graph
-        .pass("exposure sums", PassKind::Compute)
-        .read(views.visibility, Access::StorageReadCompute)
+    let mut pass = graph.pass("exposure sums", PassKind::Compute);
+    pass.read(views.visibility, Access::StorageReadCompute)
         .read(views.surfaces, Access::StorageReadCompute)
         .read(views.light[view], Access::StorageReadCompute)
         .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)
         .read(frame.color, Access::StorageReadCompute)
         .write(views.sums, Access::StorageWriteCompute)
         .when(!needs.is_idle, IDLE_REASON)
-        .when(needs.exposure != ExposureUse::None, NOT_NEEDED);
+        .when(needs.exposure != ExposureUse::None || needs.has_movers, NOT_NEEDED);
+    if needs.has_movers {
+        pass.read_write(views.movers, Access::StorageWriteCompute);
+    }
 }
 
 /// The first exposure is found at once, so that nothing needs to have been there before.

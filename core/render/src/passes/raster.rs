@@ -27,7 +27,7 @@ type FrameKey = (u32, VertexLayout, Topology, u32, Visibility);
 pub(crate) enum DrawMark {
     /// What was there.
     Kept,
-    /// The number of its surface plus 1, or 0 where nothing is traced.
+    /// The number of its surface plus 1, or 0 where nothing is traced; with `WHITE_ALBEDO` or without.
     Written(u32),
 }
 
@@ -35,6 +35,7 @@ pub(crate) enum DrawMark {
 #[derive(Clone, Copy)]
 pub(crate) struct RasterView<'a> {
     pub(crate) visibility: vk::ImageView,
+    pub(crate) albedo: vk::ImageView,
     /// The visibility buffer is empty at first.
     pub(crate) begins: bool,
     /// By the frame's numbers of draws.
@@ -174,8 +175,10 @@ impl RasterPass<'_> {
         let mark = self.mark(number);
         self.bind_pipeline(draw, fixed, mark)?;
         self.bind_push(draw.bindings, draw.environment)?;
-        if let Some(DrawMark::Written(surface)) = mark {
-            self.push_surface(surface);
+        match mark {
+            Some(DrawMark::Written(surface)) => self.push_surface(surface),
+            Some(DrawMark::Kept) => self.push_surface(0),
+            None => {}
         }
         let (device, raw) = (self.commands.device(), self.commands.raw());
         // SAFETY: the pipeline's state is complete; `tables` has checked that the indices lie in their buffer.
@@ -364,18 +367,17 @@ fn rendering<T>(
     let depth_layout = vk::ImageLayout::DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
     let color_layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
     let nothing = view.filter(|view| view.begins).map(|_| vk::ClearValue::default());
-    let visibility = view.map_or(vk::ImageView::null(), |view| view.visibility);
-    let colors = [
-        attachment(target.color.view(), color_layout, load.color()),
-        attachment(visibility, color_layout, nothing),
-    ];
-    let colors = &colors[..if view.is_some() { 2 } else { 1 }];
+    let mut colors = vec![attachment(target.color.view(), color_layout, load.color())];
+    if let Some(view) = view {
+        colors.push(attachment(view.visibility, color_layout, nothing));
+        colors.push(attachment(view.albedo, color_layout, nothing));
+    }
     let depth = attachment(target.depth.view(), depth_layout, load.depth());
     let stencil = attachment(target.depth.view(), depth_layout, load.stencil());
     let info = vk::RenderingInfo::default()
         .render_area(window::whole(target.size))
         .layer_count(1)
-        .color_attachments(colors)
+        .color_attachments(&colors)
         .depth_attachment(&depth)
         .stencil_attachment(&stencil);
     commands.rendering(&info, record)

@@ -5,9 +5,9 @@ use afterglow_gpu::{
     BindlessKind, BindlessTable, Buffer, BufferDesc, BufferKind, Gpu, GpuError, Image, ImageDesc, vk,
 };
 use afterglow_layout::SharedStruct;
-use afterglow_records::{Exposure, ExposureSum, LightTexel, SurfaceTexel};
+use afterglow_records::{Exposure, ExposureSum, LightTexel, MoverSum, SurfaceTexel};
 
-use crate::target::Target;
+use crate::target::{COLOR_FORMAT, Target};
 
 /// Numbers of draw and triangle of each pixel.
 pub(crate) const VISIBILITY_FORMAT: vk::Format = vk::Format::R32G32_UINT;
@@ -32,6 +32,10 @@ pub(crate) struct TrackedImage {
 pub(crate) struct ViewBuffers {
     pub(crate) size: [u32; 2],
     pub(crate) visibility: TrackedImage,
+    /// Colours without light.
+    pub(crate) albedo: TrackedImage,
+    /// Bindless index of the albedo as a storage image.
+    pub(crate) albedo_index: u32,
     /// Bindless index of the visibility as a storage image.
     pub(crate) visibility_index: u32,
     /// The colour image that [`ViewBuffers::color_index`] names.
@@ -44,18 +48,24 @@ pub(crate) struct ViewBuffers {
     pub(crate) indirect: [Tracked; 2],
     pub(crate) sums: Tracked,
     pub(crate) exposure: Tracked,
+    /// Sums of moving draws among baked surfaces.
+    pub(crate) movers: Tracked,
 }
 
 impl ViewBuffers {
     pub(crate) fn new(gpu: &Gpu, table: &BindlessTable, target: &Target) -> Result<Self, GpuError> {
         let size = target.size;
         let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::STORAGE;
-        let visibility = gpu.create_image(&ImageDesc::d2("visibility", VISIBILITY_FORMAT, size, usage))?;
+        let image = |name, format| gpu.create_image(&ImageDesc::d2(name, format, size, usage));
+        let visibility = image("visibility", VISIBILITY_FORMAT)?;
+        let albedo = image("albedo", COLOR_FORMAT)?;
         let pixels = pixels(size);
         let buffer = |name, bytes| Tracked::new(gpu, name, bytes);
         Ok(Self {
             size,
             visibility_index: storage_index(table, &visibility)?,
+            albedo_index: storage_index(table, &albedo)?,
+            albedo: TrackedImage { image: albedo, state: ResourceState::UNDEFINED },
             visibility: TrackedImage { image: visibility, state: ResourceState::UNDEFINED },
             color: target.color.raw(),
             color_index: storage_index(table, &target.color)?,
@@ -67,6 +77,7 @@ impl ViewBuffers {
             ],
             sums: buffer("exposure sums", u64::from(sum_count(size)) * stride::<ExposureSum>())?,
             exposure: buffer("exposure", stride::<Exposure>())?,
+            movers: buffer("mover sums", stride::<MoverSum>())?,
         })
     }
 
@@ -84,9 +95,19 @@ impl ViewBuffers {
         Ok(())
     }
 
+    /// Makes sure that there are sums of so many draws.
+    pub(crate) fn reserve_movers(&mut self, gpu: &Gpu, draws: usize) -> Result<(), GpuError> {
+        let bytes = (draws as u64 * stride::<MoverSum>()).next_power_of_two();
+        if bytes > self.movers.buffer.size() {
+            self.movers = Tracked::new(gpu, "mover sums", bytes)?;
+        }
+        Ok(())
+    }
+
     /// Gives the places in the table back.
     pub(crate) fn release(self, table: &BindlessTable) {
         table.remove(BindlessKind::StorageImage, self.visibility_index);
+        table.remove(BindlessKind::StorageImage, self.albedo_index);
         table.remove(BindlessKind::StorageImage, self.color_index);
     }
 }

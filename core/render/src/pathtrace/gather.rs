@@ -3,15 +3,16 @@
 use std::ops::Range;
 
 use afterglow_gl::frame::{Draw, Frame, Topology};
-use afterglow_gpu::{BindlessTable, GpuError};
-use afterglow_records::{SurfaceDraw, SurfaceKind};
+use afterglow_gpu::{BindlessTable, Gpu, GpuError};
+use afterglow_records::{SurfaceDraw, SurfaceKind, WHITE_ALBEDO};
 use afterglow_scene::Verdict;
 use glam::{DVec3, Mat4};
 
 use super::arrange::Mark;
 use super::geometry::GeometryReader;
+use super::lights::Highlights;
 use super::options::{Displaced, PathtraceOptions};
-use super::surfaces::{LayerFinder, Lighting, Located, is_alpha_tested, masks, surface_draw};
+use super::surfaces::{LayerFinder, Lighting, Located, has_holes, masks, surface_draw};
 use super::tracer::Tracing;
 use super::world::{Traced, relative};
 use crate::bindings::Lookup;
@@ -22,6 +23,7 @@ use crate::uploads::UploadArena;
 
 /// What the rest of the renderer knows of a frame.
 pub(crate) struct TraceInput<'a> {
+    pub(crate) gpu: &'a Gpu,
     pub(crate) frame: &'a Frame,
     /// Address of the frame's record.
     pub(crate) address: u64,
@@ -39,6 +41,7 @@ pub(crate) struct Surfaces<'a> {
     pub(crate) traced: Vec<Traced<'a>>,
     /// What each draw of the frame leaves in the visibility buffer.
     pub(crate) marks: Vec<DrawMark>,
+    pub(crate) highlights: Highlights,
     /// Of each traced draw: its operation, and how light is found for it.
     kinds: Vec<(usize, SurfaceKind)>,
 }
@@ -120,10 +123,33 @@ impl<'a> Gatherer<'a, '_> {
     fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let kind = self.lighting.kind(verdict, words);
+        if std::env::var_os("PTDEBUG").is_some() {
+            let e = &self.input.frame.environments[place.draw.environment as usize];
+            let r = &self.input.frame.fixed[place.draw.fixed as usize].raster;
+            let t = self.input.frame.transforms[place.draw.transform as usize];
+            eprintln!(
+                "{} {:?} {:?} lit {} units {:?} env {:?} fog {} {}..{} d {} c {:?} blend {:?} base {:?} proj {:?}",
+                place.operation,
+                verdict.class,
+                kind,
+                words.global.lighting(),
+                words.units.map(|u| u.target()),
+                words.units.map(|u| u.env_mode()),
+                words.global.fog_mode(),
+                e.fog_start,
+                e.fog_end,
+                e.fog_density,
+                e.fog_color,
+                r.blend.map(|b| b.rgb),
+                verdict.reason,
+                [t.projection[2], t.projection[3]]
+            );
+        }
         let (mask, meets) = masks(verdict.class, kind);
         let surface = self.record(place, verdict, kind, meets)?;
         let triangles = self.geometry.read(self.input.frame, place.draw);
         self.layers.add(surface, &triangles);
+        self.surfaces.highlights.note(self.input.frame, place.draw);
         self.surfaces.kinds.push((place.operation, kind));
         self.surfaces.traced.push(Traced {
             surface,
@@ -131,9 +157,11 @@ impl<'a> Gatherer<'a, '_> {
             triangles,
             model: displaced(verdict, self.surfaces.traced.len(), self.options),
             mask: mask as u8,
-            is_alpha_tested: is_alpha_tested(words),
+            is_alpha_tested: has_holes(&self.input.frame.fixed[place.draw.fixed as usize]),
         });
-        Ok(DrawMark::Written(surface + 1))
+        // Among baked surfaces the colours of what moves are a guess at its light.
+        let is_white = kind == SurfaceKind::BakedMover;
+        Ok(DrawMark::Written((surface + 1) | if is_white { WHITE_ALBEDO } else { 0 }))
     }
 
     /// A layer matters to rays only where it lies on a surface that they meet.
@@ -167,7 +195,6 @@ impl<'a> Gatherer<'a, '_> {
             record: &input.scratch.draws[place.number],
             indices: input.scratch.commands[place.number].indices,
             push: &push,
-            clamps: bindings.clamps(&mut lookup, draw.bindings)?,
         };
         let number = self.surfaces.records.len() as u32;
         let rows = relative(&verdict.model, self.origin);

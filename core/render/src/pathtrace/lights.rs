@@ -1,12 +1,14 @@
 //! A scene's lights as shaders read them.
 
+use afterglow_gl::frame::{Draw, Frame, LIGHTS};
 use afterglow_records::LightSource;
-use afterglow_scene::{LightShape, SceneLight};
+use afterglow_scene::{LightOrigin, LightShape, SceneLight};
 use glam::{DVec3, Vec3};
 
 /// A scene's lights relative to `origin`, one of them displaced where `moved` says so.
 pub(crate) fn light_sources(
     lights: &[SceneLight],
+    highlights: &Highlights,
     origin: DVec3,
     moved: Option<(usize, Vec3)>,
 ) -> Vec<LightSource> {
@@ -14,8 +16,47 @@ pub(crate) fn light_sources(
         Some((light, displacement)) if light == index => displacement,
         _ => Vec3::ZERO,
     };
-    let source = |(index, light)| light_source(light, origin, displacement(index));
+    let source = |(index, light): (usize, &SceneLight)| LightSource {
+        specular: highlights.of(light),
+        ..light_source(light, origin, displacement(index))
+    };
     lights.iter().enumerate().map(source).collect()
+}
+
+/// Specular colours of the program's lights (sRGB), by their numbers.
+#[derive(Debug, Default)]
+pub(crate) struct Highlights {
+    colors: [Option<[f32; 3]>; LIGHTS],
+}
+
+impl Highlights {
+    /// Notes the lights of a draw. The first draw that a light shines on says what colour it has.
+    pub(crate) fn note(&mut self, frame: &Frame, draw: &Draw) {
+        let global = &frame.fixed[draw.fixed as usize].words.global;
+        let Some(lights) = frame.lights.get(draw.lights as usize) else { return };
+        if global.lighting() == 0 {
+            return;
+        }
+        for (number, color) in self.colors.iter_mut().enumerate() {
+            if global.lights() >> number & 1 != 0 && color.is_none() {
+                let [r, g, b, _] = lights.lights[number].specular;
+                *color = Some([r, g, b]);
+            }
+        }
+    }
+
+    fn of(&self, light: &SceneLight) -> [f32; 3] {
+        let color = match light.origin {
+            LightOrigin::Gl(number) => self.colors.get(usize::from(number)).copied().flatten(),
+            LightOrigin::Fallback => None,
+        };
+        color.unwrap_or_default().map(|c| linear_from_srgb(c.clamp(0.0, 1.0)))
+    }
+}
+
+/// IEC 61966-2-1.
+fn linear_from_srgb(value: f32) -> f32 {
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 fn light_source(light: &SceneLight, origin: DVec3, displacement: Vec3) -> LightSource {
@@ -28,6 +69,8 @@ fn light_source(light: &SceneLight, origin: DVec3, displacement: Vec3) -> LightS
         spot_cos_cutoff: -1.0,
         spot_axis: [0.0; 3],
         spot_exponent: 0.0,
+        specular: [0.0; 3],
+        padding: 0,
     };
     match light.shape {
         LightShape::Directional { to_light, angular_radius } => LightSource {
@@ -55,7 +98,6 @@ fn light_source(light: &SceneLight, origin: DVec3, displacement: Vec3) -> LightS
 #[cfg(test)]
 mod tests {
     use super::*;
-    use afterglow_scene::LightOrigin;
 
     #[test]
     fn places_are_relative_to_the_origin_and_can_be_moved() {
@@ -70,7 +112,7 @@ mod tests {
             origin: LightOrigin::Gl(0),
         };
         let origin = DVec3::new(1.0, 0.0, 0.0);
-        let sources = light_sources(&[light, light], origin, Some((1, Vec3::Y)));
+        let sources = light_sources(&[light, light], &Highlights::default(), origin, Some((1, Vec3::Y)));
         assert_eq!(sources[0].position, [0.0, 2.0, 3.0]);
         assert_eq!(sources[1].position, [0.0, 3.0, 3.0]);
     }

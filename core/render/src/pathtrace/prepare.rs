@@ -73,8 +73,23 @@ pub(crate) fn prepare(
 ) -> Result<PreparedTrace, GpuError> {
     tracer.world.begin_frame();
     let origin = camera.view.inverse().w_axis.truncate();
+    if std::env::var_os("PTDEBUG").is_some() {
+        let s = &tracing.scene;
+        eprintln!(
+            "scene lights {:#?} sky {:?} ambient {:?} baked {} origin {:?} counts {:?}",
+            s.lights,
+            s.sky,
+            s.ambient,
+            s.baked,
+            origin,
+            s.triangles()
+        );
+    }
     let geometry = &mut tracer.world.geometry;
     let surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
+    if let Some(buffers) = &mut tracer.buffers {
+        buffers.reserve_movers(input.gpu, surfaces.records.len())?;
+    }
     let world = tracer.world.build(input.frame, &surfaces.traced, origin, input.arena)?;
     let common = tracer.common(&mut input, tracing, camera, &surfaces, &world, size)?;
     let mut views = Vec::with_capacity(tracing.arrangement.views.len());
@@ -111,7 +126,7 @@ impl Tracer {
     ) -> Result<Common, GpuError> {
         let (scene, options) = (&tracing.scene, &self.options);
         let origin = camera.view.inverse().w_axis.truncate();
-        let lights = light_sources(&scene.lights, origin, options.move_light);
+        let lights = light_sources(&scene.lights, &surfaces.highlights, origin, options.move_light);
         let mut hasher = ChangeHasher::new(size, camera, scene, &lights, options);
         for traced in &surfaces.traced {
             let record = &surfaces.records[traced.surface as usize];
@@ -165,13 +180,20 @@ impl Tracer {
         let may_continue = common.may_continue && !is_idle;
         let accumulated = self.history[view].advance(common.hash, may_continue, samples);
         let (filter_steps, filter_reason) = self.filter_steps(accumulated + samples);
-        let is_exposed = |kind| matches!(kind, &SurfaceKind::Lit | &SurfaceKind::BakedMover);
-        let exposure = match kinds.iter().any(is_exposed) {
+        let has = |kind: SurfaceKind| kinds.contains(&kind);
+        let exposure = match has(SurfaceKind::Lit) {
             false => ExposureUse::None,
             true if std::mem::take(finds_exposure) => ExposureUse::Found { continues: self.has_exposure },
             true => ExposureUse::Shared,
         };
-        let needs = ViewNeeds { is_idle, filter_steps, filter_reason, continues: accumulated > 0, exposure };
+        let needs = ViewNeeds {
+            is_idle,
+            filter_steps,
+            filter_reason,
+            continues: accumulated > 0,
+            exposure,
+            has_movers: has(SurfaceKind::BakedMover),
+        };
         let mut record = ViewRecord { accumulated, ..common.record };
         if let Some(buffers) = &self.buffers {
             name_buffers(&mut record, buffers, view, filter_steps);
@@ -195,7 +217,9 @@ fn name_buffers(record: &mut ViewRecord, buffers: &ViewBuffers, view: usize, fil
     record.light = buffers.light.get(view).map_or(0, |light| light.buffer.address());
     record.indirect = buffers.indirect[filter_steps as usize % 2].buffer.address();
     record.sums = buffers.sums.buffer.address();
+    record.movers = buffers.movers.buffer.address();
     record.exposure = buffers.exposure.buffer.address();
     record.visibility = buffers.visibility_index;
     record.color = buffers.color_index;
+    record.albedo = buffers.albedo_index;
 }

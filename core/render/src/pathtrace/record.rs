@@ -30,6 +30,10 @@ impl TraceContext<'_> {
                 build::record(self.commands, &self.prepared.copies);
                 return;
             }
+            TraceWork::ClearSums => {
+                self.commands.fill_buffer(&self.buffers.movers.buffer, 0);
+                return;
+            }
             TraceWork::Surface(view) => (&pipelines.surface, push(view), groups),
             TraceWork::Light(view) => {
                 let push = ViewPush { target: indirect(0), ..push(view) };

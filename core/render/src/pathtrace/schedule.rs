@@ -14,6 +14,7 @@ pub(crate) enum TraceWork {
     Light(usize),
     /// A step of the filter, of so many.
     Filter(usize, u32),
+    ClearSums,
     Sum(usize),
     Exposure(usize),
     Composite(usize),
@@ -31,6 +32,8 @@ pub(crate) struct ViewNeeds {
     /// The view's samples go on from earlier frames'.
     pub(crate) continues: bool,
     pub(crate) exposure: ExposureUse,
+    /// Something moves in it among baked surfaces.
+    pub(crate) has_movers: bool,
 }
 
 /// Where a view's exposure comes from.
@@ -51,12 +54,14 @@ pub(crate) const IDLE_REASON: &str = "nothing moves among surfaces with baked li
 #[derive(Debug, Clone)]
 pub(crate) struct ViewResources {
     pub(crate) visibility: ResourceId,
+    pub(crate) albedo: ResourceId,
     pub(crate) world: ResourceId,
     pub(crate) surfaces: ResourceId,
     pub(crate) light: Vec<ResourceId>,
     pub(crate) indirect: [ResourceId; 2],
     pub(crate) sums: ResourceId,
     pub(crate) exposure: ResourceId,
+    pub(crate) movers: ResourceId,
 }
 
 impl ViewResources {
@@ -70,6 +75,8 @@ impl ViewResources {
         let visibility = &buffers.visibility;
         let visibility_desc = ImageDesc::flat(buffers.size.into(), Format::Rg32Uint);
         let visibility = graph.import("visibility", visibility_desc, visibility.state);
+        let albedo_desc = ImageDesc::flat(buffers.size.into(), Format::Rgba8Unorm);
+        let albedo = graph.import("albedo", albedo_desc, buffers.albedo.state);
         let world = graph.import("world", ResourceDesc::Buffer { bytes: 1 }, world);
         let mut import = |name: &'static str, tracked: &super::buffers::Tracked| {
             let bytes = tracked.buffer.size();
@@ -77,12 +84,14 @@ impl ViewResources {
         };
         let resources = Self {
             visibility,
+            albedo,
             world,
             surfaces: import("surfaces", &buffers.surfaces),
             light: buffers.light.iter().map(|light| import("light", light)).collect(),
             indirect: [import("indirect", &buffers.indirect[0]), import("indirect", &buffers.indirect[1])],
             sums: import("exposure sums", &buffers.sums),
             exposure: import("exposure", &buffers.exposure),
+            movers: import("mover sums", &buffers.movers),
         };
         graph.output(resources.world);
         graph.output(resources.exposure);
@@ -119,9 +128,15 @@ pub(crate) fn declare_view(
         work.push(TraceWork::Filter(view, 0));
         filter::declare_culled(graph, views, needs);
     }
-    if needs.exposure != ExposureUse::Shared {
+    if needs.has_movers {
+        work.push(TraceWork::ClearSums);
+        exposure::declare_clear(graph, views, needs);
+    }
+    if needs.exposure != ExposureUse::Shared || needs.has_movers {
         work.push(TraceWork::Sum(view));
         exposure::declare_sum(graph, frame, views, view, needs);
+    }
+    if needs.exposure != ExposureUse::Shared {
         work.push(TraceWork::Exposure(view));
         exposure::declare(graph, views, needs);
     }

@@ -67,7 +67,6 @@ pub(crate) struct Located<'a> {
     /// Address of the first index.
     pub(crate) indices: u64,
     pub(crate) push: &'a DrawPush,
-    pub(crate) clamps: u32,
 }
 
 /// The record of a draw. Its list of layers ends with itself.
@@ -93,14 +92,10 @@ pub(crate) fn surface_draw(
         textures: located.push.textures,
         vertex_layout: draw.layout.0,
         last_vertex: record.last_vertex,
-        triangles: draw.index_count / 3,
         transform: record.transform,
         material: record.material,
         environment: record.environment,
-        texgen: record.texgen,
-        texture_matrices: record.texture_matrices,
         current: record.current,
-        clamps: located.clamps,
         kind: kind as u32,
         next_layer: number,
         blend: blend_word(fixed).0[0],
@@ -108,9 +103,9 @@ pub(crate) fn surface_draw(
     }
 }
 
-/// Whether alpha test may drop fragments.
-pub(crate) fn is_alpha_tested(words: &StateWords) -> bool {
-    words.global.alpha_func() != Compare::Always as u32
+/// Whether a surface may have holes, by alpha test or by blending.
+pub(crate) fn has_holes(fixed: &FixedState) -> bool {
+    fixed.words.global.alpha_func() != Compare::Always as u32 || fixed.raster.blend.is_some()
 }
 
 fn blend_word(fixed: &FixedState) -> BlendWord {

@@ -118,8 +118,10 @@ impl Tracer {
         keep(&mut self.world_state, resources.world);
         if let Some(buffers) = &mut self.buffers {
             keep(&mut buffers.visibility.state, resources.visibility);
+            keep(&mut buffers.albedo.state, resources.albedo);
             keep(&mut buffers.surfaces.state, resources.surfaces);
             keep(&mut buffers.sums.state, resources.sums);
+            keep(&mut buffers.movers.state, resources.movers);
             keep(&mut buffers.exposure.state, resources.exposure);
             for (light, resource) in buffers.light.iter_mut().zip(&resources.light) {
                 keep(&mut light.state, *resource);

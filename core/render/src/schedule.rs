@@ -85,6 +85,7 @@ pub(crate) struct Sizes {
 }
 
 /// Declares and compiles the passes of a frame. `has_first` says whether its first step has anything to do.
+#[expect(clippy::too_many_arguments, reason = "everything that a frame is made of meets here")]
 pub(crate) fn schedule(
     plan: &Plan,
     frame: &Frame,

@@ -275,6 +275,7 @@ mod tests {
                 model: Mat4::IDENTITY,
                 baked: false,
                 triangles: 2,
+                base: None,
             });
         }
         (builder.frame, scene)
@@ -294,7 +295,7 @@ mod tests {
         let (frame, scene) = frame(&classes);
         let arrangement = arrange(&frame, &scene);
         assert_eq!(arrangement.order, [0, 1, 2, 4, 5, 3, 6]);
-        assert_eq!(arrangement.views, [2..5]);
+        assert_eq!(arrangement.views, std::slice::from_ref(&(2..5)));
         let marks = [Mark::Traced, Mark::Traced, Mark::Layer].map(Some);
         assert_eq!(arrangement.marks[2..5], marks);
         assert_eq!(arrangement.marks[5], None);

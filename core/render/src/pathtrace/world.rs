@@ -140,8 +140,8 @@ impl WorldBuilder {
             corners.extend_from_slice(&self.geometry.corners[range]);
             let flags = if traced.is_alpha_tested { FLAG_ALPHA_TESTED } else { 0 };
             attributes.extend((0..traced.triangles.count).map(|triangle| TriangleAttributes {
-                primitive: (first_member + triangle / MOST_TRIANGLES) << MEMBER_SHIFT
-                    | triangle % MOST_TRIANGLES,
+                primitive: ((first_member + triangle / MOST_TRIANGLES) << MEMBER_SHIFT)
+                    | (triangle % MOST_TRIANGLES),
                 flags,
             }));
             first_member += member_count(traced) as u32;

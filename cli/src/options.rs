@@ -22,7 +22,7 @@ pub struct DeviceArguments {
     #[arg(long, value_name = "NAME", env = "AFTERGLOW_DEVICE")]
     pub device: Option<String>,
     /// Run under the Vulkan validation layer; a message from it is a failure
-    #[arg(long, env = "AFTERGLOW_VALIDATION")]
+    #[arg(long, env = "AFTERGLOW_VALIDATION", value_parser = clap::builder::BoolishValueParser::new())]
     pub validation: bool,
 }
 

@@ -1,5 +1,7 @@
 //! Damaged files, absurd arguments, no device: a clear message and the right exit code, never a crash.
 
+#![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

@@ -1,5 +1,7 @@
 //! Contexts from outside: calls in, frames out.
 
+#![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
+
 use std::sync::{Arc, Mutex};
 
 use afterglow_api::constants::*;

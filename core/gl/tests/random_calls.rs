@@ -1,5 +1,7 @@
 //! Random sequences of calls, legal and illegal: nothing panics, and every frame is sound.
 
+#![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
+
 use std::sync::{Arc, Mutex};
 
 use afterglow_api::constants::*;

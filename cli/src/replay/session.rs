@@ -8,13 +8,13 @@ use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::{Frame, Operation};
 use afterglow_gpu::{DeviceInfo, Gpu};
 use afterglow_player::BackendFactory;
-use afterglow_render::{self as render, RenderOptions, Renderer};
+use afterglow_render::{self as render, RenderOptions, Renderer, Scale};
 use parking_lot::Mutex;
 
 use super::Arguments;
 use super::report::Finished;
 use crate::failure::Failure;
-use crate::options::Mode;
+use crate::options::{Mode, Size};
 
 /// `I:X,Y,Z`: which, and how far.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,12 +43,22 @@ pub struct Session {
     gpu: Gpu,
     renderer: Arc<Mutex<Renderer>>,
     lit: Arc<AtomicBool>,
+    size: Option<Size>,
 }
 
 /// The renderer as a context sees it.
 struct Shared {
     renderer: Arc<Mutex<Renderer>>,
     lit: Arc<AtomicBool>,
+    /// Of the pictures, if it is not the program's own.
+    size: Option<Size>,
+}
+
+impl Shared {
+    /// From the program's window to the picture.
+    fn scale(&self, frame: &Frame) -> Scale {
+        Scale { from: frame.size, to: self.size.map_or(frame.size, |Size(width, height)| (width, height)) }
+    }
 }
 
 impl Backend for Shared {
@@ -56,11 +66,15 @@ impl Backend for Shared {
         if !self.lit.load(Ordering::Relaxed) {
             keep_state_only(&mut frame);
         }
+        self.scale(&frame).frame(&mut frame);
         self.renderer.lock().submit(frame, end);
     }
 
-    fn answer(&mut self, so_far: Frame, request: Request) -> Reply {
-        self.renderer.lock().answer(so_far, request)
+    fn answer(&mut self, mut so_far: Frame, request: Request) -> Reply {
+        let scale = self.scale(&so_far);
+        scale.frame(&mut so_far);
+        let reply = self.renderer.lock().answer(so_far, scale.request(&request));
+        scale.reply(&request, reply)
     }
 
     fn recycle(&mut self) -> Frame {
@@ -90,7 +104,8 @@ impl Session {
         if arguments.mode == Mode::Pathtrace {
             renderer.set_mode(render::Mode::Pathtrace, &arguments.pathtrace_options()).map_err(failed)?;
         }
-        Ok(Session { renderer: Arc::new(Mutex::new(renderer)), gpu, lit: Arc::new(AtomicBool::new(true)) })
+        let lit = Arc::new(AtomicBool::new(true));
+        Ok(Session { renderer: Arc::new(Mutex::new(renderer)), gpu, lit, size: arguments.size })
     }
 
     /// The device.
@@ -100,8 +115,8 @@ impl Session {
 
     /// Backends for contexts: they all draw with this session's renderer.
     pub fn factory(&self) -> BackendFactory {
-        let (renderer, lit) = (self.renderer.clone(), self.lit.clone());
-        Box::new(move |_| Box::new(Shared { renderer: renderer.clone(), lit: lit.clone() }))
+        let (renderer, lit, size) = (self.renderer.clone(), self.lit.clone(), self.size);
+        Box::new(move |_| Box::new(Shared { renderer: renderer.clone(), lit: lit.clone(), size }))
     }
 
     /// Whether the frame to come is drawn, or only played for the state it leaves.

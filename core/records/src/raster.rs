@@ -107,16 +107,25 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// Rows of four-byte texels to be written in reverse order.
+    /// Rows of a rectangle of four-byte texels, to be written in reverse order and resampled, nearest, where the
+    /// sizes differ. Sides are at most 32768.
     pub struct FlipRecord {
-        /// Address of the first row's first texel.
+        /// Address of the rectangle that is read, the highest row first.
         pub source: u64,
-        /// Where the last row goes, as the first.
+        /// Address of the rectangle that is written, the lowest row first.
         pub target: u64,
-        /// Texels in a row.
+        /// Texels in a row of the source.
+        pub source_width: u32,
+        /// Rows of the source.
+        pub source_height: u32,
+        /// Texels in a row of the target.
         pub width: u32,
-        /// Rows.
+        /// Rows of the target.
         pub height: u32,
+        /// The first row of the target that is written.
+        pub first_row: u32,
+        /// How many of them are.
+        pub rows: u32,
     }
 }
 

@@ -16,7 +16,7 @@ use crate::rectangles::PixelStore;
 use crate::renderer::Renderer;
 use crate::report::FrameReport;
 use crate::retained::RangeCopy;
-use crate::schedule::{Lasting, Schedule, Sizes, TracedViews, Work, schedule};
+use crate::schedule::{Lasting, LastingBuffer, Schedule, TracedViews, Work, schedule};
 use crate::tables;
 
 /// What is ready to be recorded.
@@ -118,16 +118,14 @@ impl Renderer {
         let lasting = Lasting {
             textures: self.texture_state,
             geometry: self.geometry_state,
-            store: self.store.state,
-            accumulation: self.accumulator.state,
+            store: LastingBuffer { state: self.store.state, bytes: self.store.bytes() },
+            accumulation: LastingBuffer { state: self.accumulator.state, bytes: self.accumulator.bytes() },
         };
-        let sizes = Sizes { store: self.store.bytes(), accumulation: self.accumulator.bytes() };
         let has_first = !plan.defined.is_empty()
             || !range_copies.is_empty()
             || matches!(plan.steps.first(), Some(Step::Transfers(range)) if !range.is_empty());
         let question = question.as_ref();
-        let schedule =
-            schedule(&plan, frame, &self.target, &lasting, &sizes, has_first, question, views.as_ref())?;
+        let schedule = schedule(&plan, frame, &self.target, &lasting, has_first, question, views.as_ref())?;
         let readback = question.map(|question| Readback::new(&self.gpu, *question));
         Ok(Prepared { plan, schedule, address, range_copies, flips, readback: readback.transpose()?, traced })
     }

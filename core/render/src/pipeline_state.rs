@@ -17,6 +17,8 @@ pub(crate) struct PipelineRaster {
     front_ccw: bool,
     depth_bias: bool,
     line: LineKind,
+    /// Flat colours come from the last vertex, as lines have them, and not from the first.
+    is_last_provoking: bool,
 }
 
 /// A stencil test without its numbers.
@@ -68,6 +70,7 @@ impl PipelineRaster {
                 Topology::Lines => LineKind::new(raster.line_stipple.is_some(), antialiased, features),
                 _ => LineKind::Default,
             },
+            is_last_provoking: topology == Topology::Lines && features.provoking_vertex_last,
         }
     }
 
@@ -87,6 +90,16 @@ impl PipelineRaster {
             })
             .depth_bias_enable(self.depth_bias)
             .line_width(1.0)
+    }
+
+    /// Which vertex flat colours come from, where that is not the first.
+    pub(crate) fn provoking_vertex(
+        &self,
+    ) -> Option<vk::PipelineRasterizationProvokingVertexStateCreateInfoEXT<'static>> {
+        let last = vk::ProvokingVertexModeEXT::LAST_VERTEX;
+        self.is_last_provoking.then(|| {
+            vk::PipelineRasterizationProvokingVertexStateCreateInfoEXT::default().provoking_vertex_mode(last)
+        })
     }
 
     /// How lines are drawn, where the device has a choice.

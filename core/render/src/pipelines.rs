@@ -151,7 +151,11 @@ impl Pipelines {
             });
         let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
         let mut lines = key.raster.lines();
+        let mut provoking = key.raster.provoking_vertex();
         let mut rasterization = key.raster.rasterization();
+        if let Some(provoking) = &mut provoking {
+            rasterization = rasterization.push_next(provoking);
+        }
         if let Some(lines) = &mut lines {
             rasterization = rasterization.push_next(lines);
         }

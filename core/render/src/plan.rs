@@ -38,8 +38,10 @@ pub(crate) enum Transfer {
 pub(crate) struct CopyItem {
     pub(crate) image: ImageKey,
     pub(crate) region: Region,
-    /// Rows counted from the top.
+    /// Rows counted from the top. It is resampled where its size is not the region's.
     pub(crate) source: vk::Rect2D,
+    /// Pixels of the batch before it.
+    pub(crate) first_pixel: usize,
     /// Texels of the batch before it.
     pub(crate) first_texel: usize,
 }
@@ -48,6 +50,8 @@ pub(crate) struct CopyItem {
 #[derive(Debug, Default)]
 pub(crate) struct CopyBatch {
     pub(crate) items: Vec<CopyItem>,
+    /// Of the window.
+    pub(crate) pixels: usize,
     pub(crate) texels: usize,
     /// From depth, else from colour.
     pub(crate) from_depth: bool,

@@ -13,6 +13,9 @@ use crate::window;
 /// Bits of a stencil value; each is drawn by itself.
 pub(crate) const STENCIL_BITS: u32 = 8;
 
+/// Pixels in a row or column that the shader's floats can count.
+const LONGEST_SIDE: u32 = 1 << 23;
+
 /// The records of one rectangle, in [`Rectangles::records`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rectangle {
@@ -87,9 +90,10 @@ fn drawn(
         PixelContent::Stencil(bytes) => (PixelKind::Stencil, bytes, 1),
     };
     let is_drawable = count > 0
+        && pixels.width.max(pixels.height) <= LONGEST_SIDE
         && count <= u64::from(u32::MAX)
         && bytes.len() as u64 >= count * bytes_each
-        && pixels.zoom.iter().all(|zoom| *zoom != 0.0);
+        && is_placed(pixels.position, pixels.zoom);
     if !is_drawable {
         return Ok(None);
     }
@@ -112,6 +116,12 @@ fn drawn(
     }))
 }
 
+/// Whether the shader can tell which pixel a fragment shows.
+fn is_placed(position: [f32; 2], zoom: [f32; 2]) -> bool {
+    let all_finite = [position, zoom].as_flattened().iter().all(|value| value.is_finite());
+    all_finite && zoom.iter().all(|zoom| *zoom != 0.0)
+}
+
 /// The part of the window that a copy of pixels reads.
 pub(crate) fn copy_source(copy: &PixelCopy, size: [u32; 2]) -> Option<(Rect, vk::Rect2D)> {
     let clipped = window::clip(&copy.source, size)?;
@@ -130,8 +140,7 @@ fn copied(copy: &PixelCopy, frame: &Frame, size: [u32; 2], store: PixelStore) ->
         PixelBuffer::Depth => PixelKind::Depth,
         PixelBuffer::Stencil => PixelKind::Stencil,
     };
-    let is_drawable = copy.zoom.iter().all(|zoom| *zoom != 0.0);
-    is_drawable.then(|| PixelRecord {
+    is_placed(copy.position, copy.zoom).then(|| PixelRecord {
         source: store.address,
         position: [moved(0, copy.source.x, clipped.x), moved(1, copy.source.y, clipped.y)],
         zoom: copy.zoom,

@@ -15,6 +15,21 @@ struct Key {
     lod_bias: FloatBits,
 }
 
+/// How a missing texture is sampled.
+fn missing() -> Sampler {
+    Sampler {
+        mag_linear: false,
+        min_linear: false,
+        mip_linear: None,
+        wrap: [Wrap::Repeat; 3],
+        min_lod: 0.0.into(),
+        max_lod: 0.0.into(),
+        border_color: [0.0.into(); 4],
+        anisotropy: 1.0.into(),
+        compare: None,
+    }
+}
+
 /// All samplers, by their bindless indices.
 pub(crate) struct Samplers {
     gpu: Gpu,
@@ -26,15 +41,18 @@ pub(crate) struct Samplers {
 }
 
 impl Samplers {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    /// With one sampler at index 0, for textures that are missing.
+    pub(crate) fn new(gpu: &Gpu, table: &BindlessTable) -> Result<Self, GpuError> {
         let linear = vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR;
-        Self {
+        let mut samplers = Self {
             gpu: gpu.clone(),
             indices: HashMap::new(),
             samplers: Vec::new(),
             is_full: false,
             filters_depth: gpu.format_features(DEPTH_TEXEL_FORMAT).contains(linear),
-        }
+        };
+        samplers.index(table, &missing(), BaseFormat::Rgba, 0.0)?;
+        Ok(samplers)
     }
 
     /// The bindless index of a sampler. If the device takes no more of them it is another one.
@@ -194,7 +212,7 @@ mod tests {
     fn equal_samplers_are_one() {
         let gpu = gpu();
         let table = gpu.create_bindless_table(BindlessSizes::default()).unwrap();
-        let mut samplers = Samplers::new(&gpu);
+        let mut samplers = Samplers::new(&gpu, &table).unwrap();
         let nearest = testing::nearest();
         let mut index =
             |sampler: &Sampler, bias: f32| samplers.index(&table, sampler, BaseFormat::Rgba, bias).unwrap();

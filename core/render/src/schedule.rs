@@ -45,8 +45,15 @@ pub(crate) struct Lasting {
     pub(crate) textures: ResourceState,
     /// Retained ranges.
     pub(crate) geometry: ResourceState,
-    pub(crate) store: ResourceState,
-    pub(crate) accumulation: ResourceState,
+    pub(crate) store: LastingBuffer,
+    pub(crate) accumulation: LastingBuffer,
+}
+
+/// A buffer that lives longer than a frame, and may not be there yet.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LastingBuffer {
+    pub(crate) state: ResourceState,
+    pub(crate) bytes: u64,
 }
 
 /// The graph's resources; the numbers of those that have been declared.
@@ -78,33 +85,30 @@ pub(crate) struct TracedViews<'a> {
     pub(crate) prepared: &'a PreparedTrace,
 }
 
-/// Sizes of buffers, at least 1: the graph knows no empty ones.
-pub(crate) struct Sizes {
-    pub(crate) store: u64,
-    pub(crate) accumulation: u64,
-}
-
 /// Declares and compiles the passes of a frame. `has_first` says whether its first step has anything to do.
-#[expect(clippy::too_many_arguments, reason = "everything that a frame is made of meets here")]
 pub(crate) fn schedule(
     plan: &Plan,
     frame: &Frame,
     target: &Target,
     lasting: &Lasting,
-    sizes: &Sizes,
     has_first: bool,
     question: Option<&Question>,
     traced: Option<&TracedViews<'_>>,
 ) -> Result<Schedule, GraphError> {
     let mut graph = GraphBuilder::new();
+    // The graph knows no empty buffers.
     let buffer = |bytes: u64| ResourceDesc::Buffer { bytes: bytes.max(1) };
     let resources = Resources {
         color: graph.import("color", target.color_desc(), target.color_state),
         depth: graph.import("depth", target.depth_desc(), target.depth_state),
         textures: graph.import("textures", buffer(1), lasting.textures),
         geometry: graph.import("geometry", buffer(1), lasting.geometry),
-        store: graph.import("store", buffer(sizes.store), lasting.store),
-        accumulation: graph.import("accumulation", buffer(sizes.accumulation), lasting.accumulation),
+        store: graph.import("store", buffer(lasting.store.bytes), lasting.store.state),
+        accumulation: graph.import(
+            "accumulation",
+            buffer(lasting.accumulation.bytes),
+            lasting.accumulation.state,
+        ),
     };
     for output in
         [resources.color, resources.depth, resources.textures, resources.geometry, resources.accumulation]

@@ -8,7 +8,7 @@ use crate::overlaps::Overlaps;
 use crate::plan::{CopyBatch, CopyItem, Plan, RasterStep, Step, Transfer};
 use crate::textures::{Textures, texel_count};
 
-/// Texels that one batch of copies to textures moves at most, unless a single one is larger.
+/// Texels, and pixels, that one batch of copies to textures moves at most, unless a single one is larger.
 const MOST_BATCH_TEXELS: usize = 2 << 20;
 
 #[derive(Default)]
@@ -135,15 +135,19 @@ impl Sorter {
     /// Adds a copy from the window to a texture.
     pub(crate) fn copy(&mut self, image: ImageKey, region: Region, source: vk::Rect2D, from_depth: bool) {
         self.used.insert(image);
-        let texels = texel_count(&region);
-        if !self.joins_batch(texels, from_depth) {
+        let (pixels, texels) = (pixel_count(source), texel_count(&region));
+        if !self.joins_batch(pixels.max(texels), from_depth) {
             self.begin_batch(from_depth);
         }
         // Of copies to the same texels, with nothing drawn between them, only the last one shows.
         let same = self.batch.get(&(image, region)).copied();
-        let last_items = self.plan.batches.last_mut().map(|batch| &mut batch.items);
-        if let (Some(same), Some(items)) = (same, last_items) {
-            items[same].source = source;
+        if let (Some(same), Some(batch)) = (same, self.plan.batches.last_mut()) {
+            let item = &mut batch.items[same];
+            if item.source.extent != source.extent {
+                item.first_pixel = batch.pixels;
+                batch.pixels += pixels;
+            }
+            item.source = source;
             return;
         }
         if self.overlaps.overlaps(image, &region) {
@@ -154,7 +158,14 @@ impl Sorter {
             return;
         };
         self.batch.insert((image, region), batch.items.len());
-        batch.items.push(CopyItem { image, region, source, first_texel: batch.texels });
+        batch.items.push(CopyItem {
+            image,
+            region,
+            source,
+            first_pixel: batch.pixels,
+            first_texel: batch.texels,
+        });
+        batch.pixels += pixels;
         batch.texels += texels;
     }
 
@@ -162,7 +173,7 @@ impl Sorter {
         let (Some(Step::Copy(_)), Some(batch)) = (self.plan.steps.last(), self.plan.batches.last()) else {
             return false;
         };
-        batch.from_depth == from_depth && batch.texels + texels <= MOST_BATCH_TEXELS
+        batch.from_depth == from_depth && batch.pixels.max(batch.texels) + texels <= MOST_BATCH_TEXELS
     }
 
     fn begin_batch(&mut self, from_depth: bool) {
@@ -191,6 +202,10 @@ impl Sorter {
         plan.transfers.splice(0..0, early);
         plan
     }
+}
+
+fn pixel_count(rect: vk::Rect2D) -> usize {
+    rect.extent.width as usize * rect.extent.height as usize
 }
 
 #[cfg(test)]
@@ -247,5 +262,20 @@ mod tests {
         sorter.copy(image, region(2), source(3), false);
         assert_eq!(sorter.plan.batches.len(), 3);
         assert!(sorter.is_used(image));
+    }
+
+    #[test]
+    fn a_repeated_copy_may_have_another_size() {
+        let mut sorter = Sorter::default();
+        let image = ImageKey::unique();
+        let mut large = source(0);
+        large.extent.width = 8;
+        sorter.copy(image, region(0), source(0), false);
+        sorter.copy(image, region(4), source(0), false);
+        sorter.copy(image, region(0), large, false);
+        let batch = &sorter.plan.batches[0];
+        assert_eq!((batch.pixels, batch.texels), (16 + 16 + 32, 32));
+        let places = batch.items.iter().map(|item| (item.first_pixel, item.first_texel));
+        assert_eq!(places.collect::<Vec<_>>(), [(32, 0), (16, 16)]);
     }
 }

@@ -1,6 +1,6 @@
 //! What tests share: a device under validation, and frames built by hand.
 
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use afterglow_gl::frame::{
     BaseFormat, Bindings, Clear, Compare, Cull, CurrentAttributes, Dimension, Draw, Environment, FixedState,
@@ -300,9 +300,13 @@ impl FrameBuilder {
         self
     }
 
-    /// What the frame looks like on a new renderer.
+    /// What the frame looks like. All tests share a renderer, which spares the making of pipelines: frames must not
+    /// depend on what the window held before.
     pub(crate) fn picture(&self) -> Picture {
-        Picture::after(&mut renderer(), &[&self.frame])
+        static RENDERER: Mutex<Option<Renderer>> = Mutex::new(None);
+        // A test that failed has left a renderer that still works.
+        let mut shared = RENDERER.lock().unwrap_or_else(PoisonError::into_inner);
+        Picture::after(shared.get_or_insert_with(renderer), &[&self.frame])
     }
 }
 

@@ -84,26 +84,35 @@ pub(crate) fn window_viewport(size: [u32; 2]) -> vk::Viewport {
     vk::Viewport { x: 0.0, y: height, width, height: -height, min_depth: 0.0, max_depth: 1.0 }
 }
 
-/// The part of a copy to a texture whose source lies in the window: where it goes, and from where.
+/// The part of a copy to a texture whose source lies in the window: where it goes, and from where. If the region has
+/// another size than the source, its edges are rounded to whole texels.
 pub(crate) fn clip_copy(copy: &ImageCopy, size: [u32; 2]) -> Option<(Region, vk::Rect2D)> {
-    let extent = |axis: usize| i32::try_from(copy.region.extent[axis]).unwrap_or(i32::MAX);
-    let source = Rect {
-        width: copy.source.width.min(extent(0)),
-        height: copy.source.height.min(extent(1)),
-        ..copy.source
-    };
-    let clipped = clip(&source, size)?;
-    let moved = |axis: usize, from: i32, to: i32| {
-        // Clipping moves an edge only towards the window's inside.
-        copy.region.offset[axis].checked_add(i64::from(to).abs_diff(i64::from(from)) as u32)
-    };
-    let [_, _, z] = copy.region.offset;
+    let source = &copy.source;
+    let clipped = clip(source, size)?;
+    let [width, height, _] = copy.region.extent;
+    let (x, width) = clipped_texels(width, (source.x, source.width), (clipped.x, clipped.width))?;
+    let (y, height) = clipped_texels(height, (source.y, source.height), (clipped.y, clipped.height))?;
+    let [left, lowest, z] = copy.region.offset;
     let region = Region {
-        offset: [moved(0, source.x, clipped.x)?, moved(1, source.y, clipped.y)?, z],
-        extent: [clipped.width as u32, clipped.height as u32, 1],
+        offset: [left.checked_add(x)?, lowest.checked_add(y)?, z],
+        extent: [width, height, 1],
         ..copy.region
     };
     Some((region, from_top(&clipped, size)))
+}
+
+/// First texel and number of texels that the clipped part of a source becomes, of `texels` that the source becomes.
+/// None if there are none. Start and length are given of both; the clipped part is not empty.
+fn clipped_texels(texels: u32, source: (i32, i32), clipped: (i32, i32)) -> Option<(u32, u32)> {
+    let length = i128::from(source.1);
+    let texel = |pixel: i64| {
+        let before = i128::from(pixel) - i128::from(source.0);
+        // At most `texels`, since the pixel lies in the source.
+        ((before * i128::from(texels) * 2 + length) / (length * 2)) as u32
+    };
+    let first = texel(clipped.0.into());
+    let last = texel(i64::from(clipped.0) + i64::from(clipped.1));
+    (first < last).then_some((first, last - first))
 }
 
 #[cfg(test)]
@@ -141,5 +150,9 @@ mod tests {
         assert_eq!((region.offset, region.extent), ([2, 1, 0], [3, 2, 1]));
         assert_eq!((source.offset.x, source.offset.y), (0, 0));
         assert!(clip_copy(&copy, [10, 6]).is_none());
+        let scaled = ImageCopy { source: rect(-2, 6, 8, 2), ..copy };
+        let (region, source) = clip_copy(&scaled, [10, 7]).unwrap();
+        assert_eq!((region.offset, region.extent), ([2, 1, 0], [3, 2, 1]));
+        assert_eq!((source.extent.width, source.extent.height), (6, 1));
     }
 }

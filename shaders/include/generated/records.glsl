@@ -77,11 +77,15 @@ struct ClearPush { // 20 bytes
 
 #ifndef STRUCT_FlipRecord
 #define STRUCT_FlipRecord
-struct FlipRecord { // 24 bytes
+struct FlipRecord { // 40 bytes
     uint64_t source;
     uint64_t target;
+    uint source_width;
+    uint source_height;
     uint width;
     uint height;
+    uint first_row;
+    uint rows;
 };
 #endif
 

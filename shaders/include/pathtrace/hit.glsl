@@ -84,17 +84,17 @@ vec4 blended(uint word, vec4 source, vec4 destination) {
     return vec4(clamp(color, 0.0, 1.0), destination.a);
 }
 
-// The program's colour of a surface without lighting, all its layers together, in sRGB.
+// The program's colour of a surface without lighting, all its layers together, in sRGB. Materials are not in it.
 vec3 unlit_color(ViewRecord view, uint draw, uint triangle, vec3 weights) {
     vec4 color = vec4(1.0);
     [[dont_unroll]] for (uint n = 0u; n < MOST_LAYERS; ++n) {
         DrawReference layer = surface_draw(view, draw);
         GlobalState state = global_state(layer);
-        vec4 primary = vertex_color(view, layer, state, triangle, weights);
-        if (state.lighting) {
-            primary = point_material(view, layer, state, primary).diffuse;
+        vec4 primary = vec4(1.0);
+        if (!state.lighting) {
+            primary = clamp(vertex_color(view, layer, state, triangle, weights), 0.0, 1.0);
         }
-        vec4 own = textured_color(view, layer, triangle, weights, clamp(primary, 0.0, 1.0));
+        vec4 own = textured_color(view, layer, triangle, weights, primary);
         color = n == 0u ? own : blended(layer.it.blend, own, color);
         if (layer.it.next_layer == draw) {
             break;

@@ -70,14 +70,21 @@ vec3 met_light(ViewRecord view, Hit hit, vec3 direction, out Place place) {
     place.geometric = normal;
     place.mask = MASK_STATIC | MASK_MOVING;
     place.weight = vec3(0.0);
-    vec3 color = linear_from_srgb(unlit_color(view, draw_index, triangle, weights));
+    vec3 color = unlit_color(view, draw_index, triangle, weights);
+    vec3 emission = vec3(0.0);
+    GlobalState state = global_state(draw);
+    if (state.lighting) {
+        vec4 followed = state.color_material_faces == 0u ? vec4(0.0) : vertex_color(view, draw, state, triangle, weights);
+        MaterialFace material = point_material(view, draw, state, followed);
+        emission = linear_from_srgb(color * clamp(material.emission.rgb, 0.0, 1.0));
+        color *= clamp(material.diffuse.rgb, 0.0, 1.0);
+    }
+    color = linear_from_srgb(color);
     if (draw.it.kind != SURFACE_LIT) {
-        return color;
+        return color + emission;
     }
     place.weight = color;
-    MaterialTable materials = MaterialTable(FrameTable(view.frame).entries[0].materials);
-    vec3 emission = materials.entries[draw.it.material].faces[0].emission.rgb;
-    return color * view.ambient + (global_state(draw).lighting ? linear_from_srgb(emission) : vec3(0.0));
+    return color * view.ambient + emission;
 }
 
 // The ray that a stage of a sample sends.

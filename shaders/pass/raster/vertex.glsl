@@ -27,7 +27,7 @@ layout(location = 8) out vec4 out_coordinates[TEXTURE_UNITS];
 layout(location = 12) out float out_fog_coordinate;
 layout(location = 13) flat out float out_point_size;
 #ifdef WITH_VISIBILITY
-// The colour before lighting, for what is lit later.
+// The colour that is textured, for what is lit later.
 layout(location = 14) out vec4 out_albedo;
 layout(location = 15) flat out vec4 out_flat_albedo;
 #endif
@@ -90,13 +90,8 @@ void main() {
     out_back_primary = back.primary;
     out_back_secondary = back.secondary;
 #ifdef WITH_VISIBILITY
-    if (state.lighting) {
-        MaterialFace material = MaterialTable(frame.materials).entries[draw.material].faces[0];
-        out_albedo = followed_material(state, material, 0u, color).diffuse;
-    } else {
-        out_albedo = (push.pixels & WHITE_ALBEDO) != 0u ? vec4(1.0, 1.0, 1.0, color.a) : color;
-    }
-    out_albedo = clamp(out_albedo, 0.0, 1.0);
+    // Materials are multiplied later.
+    out_albedo = state.lighting || (push.pixels & WHITE_ALBEDO) != 0u ? vec4(1.0) : clamp(color, 0.0, 1.0);
     out_flat_albedo = out_albedo;
 #endif
     out_flat_primary = out_primary;

@@ -111,15 +111,19 @@ SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint tr
     // In perspective, w is the distance along the view.
     float away = abs(weights.x * clip[0].z + weights.y * clip[1].z + weights.z * clip[2].z);
     float fog = fog_left(view, draw, state, triangle, weights, away);
-    texel.albedo = pack_color(imageLoad(color_images[view.albedo], ivec2(pixel)).rgb, byte_of(fog));
+    vec3 albedo = imageLoad(color_images[view.albedo], ivec2(pixel)).rgb;
     texel.specular = 0u;
     vec3 emission = vec3(0.0);
     if (draw.it.kind == SURFACE_LIT && state.lighting) {
         vec4 color = state.color_material_faces == 0u ? vec4(0.0) : vertex_color(view, draw, state, triangle, weights);
         MaterialFace material = point_material(view, draw, state, color);
-        texel.specular = pack_color(clamp(material.specular.rgb, 0.0, 1.0), byte_of(material.shininess / 128.0));
-        emission = clamp(material.emission.rgb, 0.0, 1.0);
+        // Textures are over all of a material, but for highlights that are added after them.
+        vec3 specular = state.separate_specular ? material.specular.rgb : material.specular.rgb * albedo;
+        texel.specular = pack_color(clamp(specular, 0.0, 1.0), byte_of(material.shininess / 128.0));
+        emission = clamp(material.emission.rgb, 0.0, 1.0) * albedo;
+        albedo *= clamp(material.diffuse.rgb, 0.0, 1.0);
     }
+    texel.albedo = pack_color(albedo, byte_of(fog));
     texel.emission = pack_color(emission, draw.it.kind | draw.it.ray_mask << 4);
     return texel;
 }

@@ -1,4 +1,5 @@
-//! Copies from the window to textures (glCopyTexImage): read into a buffer, turn upside down, write to images.
+//! Copies from the window to textures (glCopyTexImage): read into a buffer, turn upside down, write to images. Where
+//! the texels are more or fewer than the window's pixels, they are resampled as they are turned.
 
 use afterglow_gpu::{Commands, ComputeDesc, ComputePipeline, Gpu, GpuError, vk};
 use afterglow_records::{FlipPush, FlipRecord};
@@ -34,7 +35,7 @@ impl Flip {
         Ok(Self { pipeline: gpu.create_compute_pipeline(&desc)? })
     }
 
-    /// Records the second step: the store's first half to its second half.
+    /// Records the second step: the store's pixels to its texels.
     pub(crate) fn record(
         &self,
         commands: &Commands<'_>,
@@ -57,7 +58,7 @@ impl Flip {
 
 /// Bytes that a batch needs in the store.
 pub(crate) fn store_bytes(batch: &CopyBatch) -> u64 {
-    (batch.texels * TEXEL_BYTES * 2) as u64
+    ((batch.pixels + batch.texels) * TEXEL_BYTES) as u64
 }
 
 /// Uploads what the shader reads for a batch.
@@ -70,23 +71,26 @@ pub(crate) fn prepare(
     for item in &batch.items {
         let [width, height, _] = item.region.extent;
         let rows_each = (WORKGROUP_TEXELS / width).clamp(1, height);
-        let source = store.address() + (item.first_texel * TEXEL_BYTES) as u64;
-        let target = source + (batch.texels * TEXEL_BYTES) as u64;
-        let row = u64::from(width) * TEXEL_BYTES as u64;
-        for first in (0..height).step_by(rows_each as usize) {
-            let rows = rows_each.min(height - first);
+        let pixels = item.source.extent;
+        let source = store.address() + (item.first_pixel * TEXEL_BYTES) as u64;
+        let target = store.address() + ((batch.pixels + item.first_texel) * TEXEL_BYTES) as u64;
+        for first_row in (0..height).step_by(rows_each as usize) {
             records.push(FlipRecord {
-                source: source + u64::from(first) * row,
-                target: target + u64::from(height - first - rows) * row,
+                source,
+                target,
+                source_width: pixels.width,
+                source_height: pixels.height,
                 width,
-                height: rows,
+                height,
+                first_row,
+                rows: rows_each.min(height - first_row),
             });
         }
     }
     Ok(FlipRecords { address: arena.push_table(&records)?.address, count: records.len() as u32 })
 }
 
-/// Records the first step: the window to the store's first half.
+/// Records the first step: the window to the store's pixels.
 pub(crate) fn record_read(commands: &Commands<'_>, target: &Target, batch: &CopyBatch, store: &Store) {
     let Some(buffer) = store.buffer() else { return };
     let (image, aspect) = if batch.from_depth {
@@ -97,17 +101,17 @@ pub(crate) fn record_read(commands: &Commands<'_>, target: &Target, batch: &Copy
     let regions: Vec<_> = batch
         .items
         .iter()
-        .map(|item| window_region(aspect, item.source, (item.first_texel * TEXEL_BYTES) as u64))
+        .map(|item| window_region(aspect, item.source, (item.first_pixel * TEXEL_BYTES) as u64))
         .collect();
     read_image(commands, image.raw(), buffer.raw(), &regions);
 }
 
-/// Records the last step: the store's second half to the textures.
+/// Records the last step: the store's texels to the textures.
 pub(crate) fn record_write(commands: &Commands<'_>, batch: &CopyBatch, store: &Store, textures: &Textures) {
     let Some(buffer) = store.buffer() else { return };
     for item in &batch.items {
         if let Some(texture) = textures.get(item.image) {
-            let offset = ((batch.texels + item.first_texel) * TEXEL_BYTES) as u64;
+            let offset = ((batch.pixels + item.first_texel) * TEXEL_BYTES) as u64;
             let region = texture.buffer_copy(&item.region, offset);
             write_image(commands, buffer.raw(), texture, &[region]);
         }

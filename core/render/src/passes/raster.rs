@@ -96,7 +96,7 @@ impl RasterState {
     pub(crate) fn new(gpu: &Gpu, table: &BindlessTable) -> Result<Self, GpuError> {
         Ok(Self {
             pipelines: Pipelines::new(gpu, table)?,
-            samplers: Samplers::new(gpu),
+            samplers: Samplers::new(gpu, table)?,
             queries: Queries::default(),
             bindings: ResolvedBindings::default(),
             frame_pipelines: HashMap::new(),

@@ -10,7 +10,7 @@ use crate::textures::{TEXEL_BYTES, Textures, expand, holds, texel_count};
 use crate::window;
 
 /// Pixels that may be asked for at once.
-const MOST_PIXELS: u64 = 1 << 28;
+pub(crate) const MOST_PIXELS: u64 = 1 << 26;
 
 /// What is read back.
 #[derive(Debug, Clone, Copy)]

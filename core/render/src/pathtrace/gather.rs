@@ -141,7 +141,13 @@ impl<'a> Gatherer<'a, '_> {
                 e.fog_density,
                 e.fog_color,
                 r.blend.map(|b| b.rgb),
-                verdict.reason,
+                self.input.frame.materials.get(place.draw.material as usize).map(|m| (
+                    m.faces[0].emission,
+                    m.faces[0].diffuse,
+                    m.faces[0].specular,
+                    m.faces[0].shininess,
+                    words.global.separate_specular()
+                )),
                 [t.projection[2], t.projection[3]]
             );
         }

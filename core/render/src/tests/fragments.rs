@@ -1,6 +1,8 @@
 //! Operations on fragments: blending, depth, stencil, alpha test, logic, fog.
 
-use afterglow_gl::frame::{Blend, BlendEquation, BlendFactor, Compare, Depth, Stencil, StencilOp};
+use afterglow_gl::frame::{
+    Blend, BlendEquation, BlendFactor, Clear, Compare, Depth, Operation, Stencil, StencilOp,
+};
 
 use crate::testing::*;
 
@@ -88,6 +90,13 @@ fn stencil_counts_overlaps() {
     };
     let mut frame = FrameBuilder::new(8, 4);
     frame.clear([0.0; 4]);
+    frame.push(Operation::Clear(Clear {
+        color: None,
+        color_mask: 0xf,
+        depth: None,
+        stencil: Some((0, 0xff)),
+        scissor: None,
+    }));
     frame.fixed.raster.color_mask = 0;
     frame.fixed.raster.stencil = Some(test(Compare::Always, 0, StencilOp::Increment));
     frame.quad([-1.0, -1.0], [0.5, 1.0], 0.0, WHITE);

@@ -6,4 +6,5 @@ mod lighting;
 mod pixels;
 mod primitives;
 mod replies;
+mod scale;
 mod textures;

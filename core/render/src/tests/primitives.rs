@@ -102,6 +102,17 @@ fn flat_shading_takes_the_first_vertex() {
 }
 
 #[test]
+fn flat_lines_take_the_last_vertex() {
+    let mut frame = FrameBuilder::new(8, 8);
+    frame.clear([0.0; 4]);
+    frame.fixed.words.global.set_flat_shade(1);
+    let vertex = |(x, color): (f32, [u8; 4])| [x.to_bits(), 0, 0, u32::from_le_bytes(color)];
+    let words: Vec<u32> = [(-1.0, RED), (1.0, GREEN)].into_iter().flat_map(vertex).collect();
+    frame.draw(POSITION_COLOR, Topology::Lines, &words, &[0, 1]);
+    assert_eq!(frame.picture().count(GREEN), 8);
+}
+
+#[test]
 fn clip_planes_cut_in_eye_space() {
     let mut frame = FrameBuilder::new(8, 8);
     frame.clear([0.0; 4]);

@@ -1,5 +1,6 @@
 //! Texture images, filtering and borders, environments, generated coordinates, copies from the window.
 
+use afterglow_gl::backend::{Reply, Request};
 use afterglow_gl::frame::{
     BaseFormat, CombineFunction, CombineSource, Dimension, EnvMode, Frame, ImageCopy, ImageKey, ImageShape,
     ImageUpload, Matrix, Operation, Rect, Region, Sampler, TexGen, TexelFormat, TextureBinding,
@@ -320,6 +321,44 @@ fn parts_outside_of_the_window_are_not_copied() {
     assert_eq!(picture.count([0; 4]), 12);
     assert_eq!(picture.at(2, 2), [255, 0, 0, 51]);
     assert_eq!(picture.at(3, 3), GREEN);
+}
+
+#[test]
+fn a_copy_of_another_size_is_resampled() {
+    // Two by two pixels of four colours become four by four texels.
+    let middle = Rect { x: 1, y: 1, width: 2, height: 2 };
+    let all = Rect { x: 0, y: 0, width: 4, height: 4 };
+    let picture = copied(middle, region(0, 0, 4, 4), BaseFormat::Rgba);
+    assert_eq!(picture, copied(all, region(0, 0, 4, 4), BaseFormat::Rgba));
+
+    // Four by four pixels become three rows of two texels: the middle row is the third one.
+    let picture = copied(all, region(1, 0, 2, 3), BaseFormat::Rgba);
+    let rows = [0, 1, 2].map(|y| [picture.at(1, y), picture.at(2, y)]);
+    assert_eq!(rows, [[[255, 0, 0, 51], GREEN], [BLUE, WHITE], [BLUE, WHITE]]);
+
+    // The right half lies outside of the window, and keeps its texels.
+    let half_outside = Rect { x: 2, y: 0, width: 4, height: 2 };
+    let picture = copied(half_outside, region(0, 0, 4, 4), BaseFormat::Rgba);
+    assert_eq!((picture.at(0, 0), picture.at(1, 3)), (GREEN, GREEN));
+    assert_eq!((picture.count(GREEN), picture.at(2, 0)), (8, [0; 4]));
+}
+
+#[test]
+fn long_copies_are_resampled_in_parts() {
+    let mut frame = FrameBuilder::new(4, 128);
+    let image = frame.define([256, 64], BaseFormat::Rgba);
+    frame.clear([0.0, 0.0, 1.0, 1.0]);
+    frame.quad([-1.0, -1.0], [0.0, -0.5], 0.0, RED);
+    frame.push(Operation::CopyToImage(ImageCopy {
+        image,
+        region: region(0, 0, 256, 64),
+        source: Rect { x: 0, y: 0, width: 4, height: 128 },
+        base_format: BaseFormat::Rgba,
+    }));
+    let request = Request::Texels { image, region: region(0, 0, 256, 64) };
+    let reply = renderer().execute_and_answer(&frame.frame, &request).unwrap();
+    let expected = (0..64).flat_map(|y| (0..256).map(move |x| if x < 128 && y < 16 { RED } else { BLUE }));
+    assert_eq!(reply, Reply::Color(expected.flatten().collect()));
 }
 
 #[test]

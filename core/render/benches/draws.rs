@@ -128,6 +128,7 @@ fn scene(units: usize, image: ImageKey) -> Frame {
     let mut words = StateWords::default();
     words.global.set_alpha_func(Compare::Always as u32);
     let mut bindings = [None; 4];
+    #[expect(clippy::needless_range_loop, reason = "the unit numbers its own texture")]
     for unit in 0..units {
         words.units[unit].set_target(Dimension::D2 as u32);
         words.units[unit].set_base_format(BaseFormat::Rgb as u32);

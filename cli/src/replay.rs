@@ -33,7 +33,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
     /// Size of the pictures; the default is the traced window's
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", env = "AFTERGLOW_SIZE")]
     size: Option<Size>,
     /// Folder for the pictures; without it none are written
     #[arg(long, value_name = "DIR")]
@@ -42,10 +42,10 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value = "png")]
     format: Format,
     /// Seed of the random numbers
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
     pub seed: u32,
     /// Samples a pixel and frame (pathtrace)
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=65536))]
+    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub spp: u32,
     /// Print figures: frame rate, passes, calls
     #[arg(long)]
@@ -74,6 +74,18 @@ pub struct Arguments {
 pub enum Format {
     /// 8 bits, as shown in a window.
     Png,
+    /// Linear light of what is shown.
+    Exr,
+}
+
+impl Format {
+    /// Of its files' names; it also says how they are written.
+    fn extension(self) -> &'static str {
+        match self {
+            Format::Png => "png",
+            Format::Exr => "exr",
+        }
+    }
 }
 
 impl Arguments {
@@ -147,7 +159,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             let finished = session.finish_frame()?;
             report.frame(frame, &finished);
             if let Some(folder) = arguments.out.as_ref().filter(|_| wanted) {
-                let path = folder.join(format!("frame-{frame:06}.png"));
+                let path = folder.join(format!("frame-{frame:06}.{}", arguments.format.extension()));
                 output::write_picture(&path, finished.size, &finished.pixels)?;
             }
         }

@@ -5,7 +5,8 @@ use std::time::Duration;
 
 use afterglow_gpu::DeviceInfo;
 use afterglow_player::PlayReport;
-use afterglow_render::{FrameReport, PassReport};
+use afterglow_render::{CulledReport, FrameReport, PassReport};
+use afterglow_scene::{Camera as SceneCamera, LightOrigin, LightShape, SceneLight};
 use serde::Serialize;
 
 /// Everything that `replay --json` writes.
@@ -27,8 +28,43 @@ struct Frame {
     index: u64,
     size: (u32, u32),
     checksum: String,
+    mode: &'static str,
+    camera: Camera,
+    triangles: BTreeMap<&'static str, u64>,
+    lights: Vec<Light>,
     passes: Vec<Pass>,
+    culled: Vec<CulledReport>,
+    bytes: Bytes,
     draws: usize,
+}
+
+/// The world's camera; matrices by columns.
+#[derive(Debug, Default, Serialize)]
+struct Camera {
+    found: bool,
+    view: Option<[f64; 16]>,
+    projection: Option<[f32; 16]>,
+}
+
+/// A light of the world, in world space.
+#[derive(Debug, Serialize)]
+struct Light {
+    origin: String,
+    /// Unit vector to a light that is infinitely far.
+    to_light: Option<[f32; 3]>,
+    position: Option<[f32; 3]>,
+    /// World units; of a light that is infinitely far, radians.
+    radius: f32,
+    /// Linear.
+    color: [f32; 3],
+}
+
+/// Memory of the frame's resources. None is shared yet: transients take as much as without aliasing.
+#[derive(Debug, Serialize)]
+struct Bytes {
+    transient: u64,
+    transient_unaliased: u64,
+    persistent: u64,
 }
 
 #[derive(Debug, Serialize)]
@@ -76,12 +112,24 @@ impl Report {
     /// Adds a frame.
     pub fn frame(&mut self, index: u64, finished: &Finished) {
         self.hash.update(&finished.hash.to_le_bytes());
+        let rendered = &finished.rendered;
+        let scene = rendered.scene.as_ref();
         self.frames.push(Frame {
             index,
             size: finished.size,
             checksum: format!("{:016x}", finished.hash),
-            passes: finished.rendered.passes.iter().map(Pass::from).collect(),
-            draws: finished.rendered.draws,
+            mode: if rendered.traced.is_some() { "pathtrace" } else { "raster" },
+            camera: scene.and_then(|scene| scene.camera.as_ref()).map(Camera::from).unwrap_or_default(),
+            triangles: scene.map(|scene| scene.triangles.named().into()).unwrap_or_default(),
+            lights: scene.map(|scene| scene.lights.iter().map(Light::from).collect()).unwrap_or_default(),
+            passes: rendered.passes.iter().map(Pass::from).collect(),
+            culled: rendered.culled.clone(),
+            bytes: Bytes {
+                transient: rendered.bytes.transient_unaliased,
+                transient_unaliased: rendered.bytes.transient_unaliased,
+                persistent: rendered.bytes.persistent + rendered.bytes.imported,
+            },
+            draws: rendered.draws,
         });
     }
 
@@ -145,6 +193,35 @@ impl Report {
             let passes = self.frames.iter().flat_map(|frame| &frame.passes);
             let ms: f64 = passes.filter(|pass| pass.name == name).map(|pass| pass.ms).sum();
             println!("  {:>9.3} ms  {name}", ms / self.frames.len() as f64);
+        }
+    }
+}
+
+impl From<&SceneCamera> for Camera {
+    fn from(camera: &SceneCamera) -> Camera {
+        Camera {
+            found: true,
+            view: Some(camera.view.to_cols_array()),
+            projection: Some(camera.projection.to_cols_array()),
+        }
+    }
+}
+
+impl From<&SceneLight> for Light {
+    fn from(light: &SceneLight) -> Light {
+        let (to_light, position, radius) = match light.shape {
+            LightShape::Directional { to_light, angular_radius } => (Some(to_light), None, angular_radius),
+            LightShape::Point { position, radius, .. } => (None, Some(position), radius),
+        };
+        Light {
+            origin: match light.origin {
+                LightOrigin::Gl(number) => format!("GL_LIGHT{number}"),
+                LightOrigin::Fallback => "fallback".into(),
+            },
+            to_light: to_light.map(Into::into),
+            position: position.map(Into::into),
+            radius,
+            color: light.color.into(),
         }
     }
 }

@@ -63,11 +63,15 @@ impl Shared {
 
 impl Backend for Shared {
     fn submit(&mut self, mut frame: Frame, end: End) {
-        if !self.lit.load(Ordering::Relaxed) {
+        let is_lit = self.lit.load(Ordering::Relaxed);
+        if !is_lit {
             keep_state_only(&mut frame);
         }
         self.scale(&frame).frame(&mut frame);
-        self.renderer.lock().submit(frame, end);
+        match is_lit {
+            true => self.renderer.lock().submit(frame, end),
+            false => self.renderer.lock().submit_unlit(frame, end),
+        }
     }
 
     fn answer(&mut self, mut so_far: Frame, request: Request) -> Reply {

@@ -6,7 +6,10 @@
 //! layout(set = 0, binding = 2) uniform texture3D textures_3d[];
 //! layout(set = 0, binding = 3) uniform sampler samplers[];
 //! layout(set = 0, binding = 4, rgba16f) uniform image2D storage_images[];
+//! layout(set = 0, binding = 5) uniform texture2D drawn_images[];
 //! ```
+//! What is drawn into and then read has an array of its own: validation takes a shader that reads one image of an
+//! array for a reader of them all.
 //! Slots may be filled while the set is bound and in use, as long as what is in flight does not read them.
 
 use std::sync::Arc;
@@ -26,11 +29,18 @@ pub enum BindlessKind {
     Texture3d = 2,
     Sampler = 3,
     StorageImage = 4,
+    DrawnImage = 5,
 }
 
 impl BindlessKind {
-    const ALL: [Self; 5] =
-        [Self::Texture2d, Self::TextureCube, Self::Texture3d, Self::Sampler, Self::StorageImage];
+    const ALL: [Self; 6] = [
+        Self::Texture2d,
+        Self::TextureCube,
+        Self::Texture3d,
+        Self::Sampler,
+        Self::StorageImage,
+        Self::DrawnImage,
+    ];
 
     fn name(self) -> &'static str {
         match self {
@@ -39,12 +49,15 @@ impl BindlessKind {
             Self::Texture3d => "3-D textures",
             Self::Sampler => "samplers",
             Self::StorageImage => "storage images",
+            Self::DrawnImage => "drawn images",
         }
     }
 
     fn descriptor(self) -> vk::DescriptorType {
         match self {
-            Self::Texture2d | Self::TextureCube | Self::Texture3d => vk::DescriptorType::SAMPLED_IMAGE,
+            Self::Texture2d | Self::TextureCube | Self::Texture3d | Self::DrawnImage => {
+                vk::DescriptorType::SAMPLED_IMAGE
+            }
             Self::Sampler => vk::DescriptorType::SAMPLER,
             Self::StorageImage => vk::DescriptorType::STORAGE_IMAGE,
         }
@@ -59,6 +72,7 @@ pub struct BindlessSizes {
     pub textures_3d: u32,
     pub samplers: u32,
     pub storage_images: u32,
+    pub drawn_images: u32,
 }
 
 impl Default for BindlessSizes {
@@ -69,6 +83,7 @@ impl Default for BindlessSizes {
             textures_3d: 256,
             samplers: 1024,
             storage_images: 1024,
+            drawn_images: 64,
         }
     }
 }
@@ -95,12 +110,14 @@ impl BindlessSizes {
             .min(limits.sampled_images);
         let textures_cube = self.textures_cube.min(left / 4);
         let textures_3d = self.textures_3d.min(left / 4);
+        let drawn_images = self.drawn_images.min(left / 8);
         Self {
-            textures_2d: self.textures_2d.min(left - textures_cube - textures_3d),
+            textures_2d: self.textures_2d.min(left - textures_cube - textures_3d - drawn_images),
             textures_cube,
             textures_3d,
             samplers,
             storage_images,
+            drawn_images,
         }
     }
 
@@ -111,6 +128,7 @@ impl BindlessSizes {
             BindlessKind::Texture3d => self.textures_3d,
             BindlessKind::Sampler => self.samplers,
             BindlessKind::StorageImage => self.storage_images,
+            BindlessKind::DrawnImage => self.drawn_images,
         }
     }
 }
@@ -148,7 +166,7 @@ pub struct BindlessTable {
     pool: vk::DescriptorPool,
     /// Locked while it is written.
     set: Mutex<vk::DescriptorSet>,
-    slots: Arc<Mutex<[Slots; 5]>>,
+    slots: Arc<Mutex<[Slots; BindlessKind::ALL.len()]>>,
 }
 
 impl Gpu {
@@ -209,7 +227,8 @@ impl Gpu {
         });
         let flags = [vk::DescriptorBindingFlags::PARTIALLY_BOUND
             | vk::DescriptorBindingFlags::UPDATE_AFTER_BIND
-            | vk::DescriptorBindingFlags::UPDATE_UNUSED_WHILE_PENDING; 5];
+            | vk::DescriptorBindingFlags::UPDATE_UNUSED_WHILE_PENDING;
+            BindlessKind::ALL.len()];
         let mut flags = vk::DescriptorSetLayoutBindingFlagsCreateInfo::default().binding_flags(&flags);
         let info = vk::DescriptorSetLayoutCreateInfo::default()
             .flags(vk::DescriptorSetLayoutCreateFlags::UPDATE_AFTER_BIND_POOL)

@@ -110,7 +110,7 @@ shared_struct! {
         pub surfaces: u64,
         /// [`LightTexel`]s.
         pub light: u64,
-        /// Indirect light that composition reads: four f32 a pixel.
+        /// Indirect light that composition reads: four f32 a pixel, the last one the depth with a sign (see filter.comp).
         pub indirect: u64,
         /// [`ExposureSum`]s, one a workgroup.
         pub sums: u64,
@@ -143,7 +143,7 @@ shared_struct! {
         pub ambient: [f32; 3],
         /// What is painted: a `PAINT_` constant.
         pub paint: u32,
-        /// The world's tangent of a pixel, for texture levels of secondary rays.
+        /// Height of a pixel at depth 1.
         pub pixel_spread: f32,
         /// 1 if something moves that could darken baked surfaces.
         pub has_movers: u32,
@@ -151,6 +151,13 @@ shared_struct! {
         pub sum_count: u32,
         /// How much of the way to its new value exposure goes: 1 at once.
         pub exposure_rate: f32,
+        /// A position's product with this is its depth: the distance along the view.
+        pub forward: [f32; 3],
+        /// Where the upper left pixel's centre is at depth 1, and how far it is from there to the next pixel to the
+        /// right and to the next one below.
+        pub pixel_origin: [f32; 3],
+        pub pixel_right: [f32; 3],
+        pub pixel_down: [f32; 3],
     }
 }
 
@@ -195,10 +202,10 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// The same over the pixels of one moving draw among baked surfaces, in units of 1/256.
+    /// The same over the pixels of one moving draw among baked surfaces: red, green and blue in units of 1/256.
     pub struct MoverSum {
-        pub traced: u32,
-        pub program: u32,
+        pub traced: [u32; 3],
+        pub program: [u32; 3],
     }
 }
 

@@ -1,5 +1,7 @@
 //! One frame from its operations to a submission.
 
+use std::time::Instant;
+
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{Commands, GpuError};
 
@@ -10,13 +12,14 @@ use crate::passes::copy::{self, FlipRecords};
 use crate::passes::raster::{self, RasterFrame, RasterPass, RasterView};
 use crate::passes::readback::{Question, Readback};
 use crate::passes::{pixels, transfers};
-use crate::pathtrace::{self, PreparedTrace, TraceContext, TraceInput, Tracing};
+use crate::pathtrace::{self, PreparedTrace, TraceContext, TraceInput, Tracing, Understood};
 use crate::plan::{Plan, Planner, Step};
 use crate::rectangles::PixelStore;
 use crate::renderer::Renderer;
-use crate::report::FrameReport;
+use crate::report::{FrameReport, SceneReport};
 use crate::retained::RangeCopy;
 use crate::schedule::{Lasting, LastingBuffer, Schedule, TracedViews, Work, schedule};
+use crate::slot::PassClock;
 use crate::tables;
 
 /// What is ready to be recorded.
@@ -43,19 +46,20 @@ impl Renderer {
         Ok(())
     }
 
-    /// Executes a frame, and reads what `question` asks for. `tracing` is how the frame was understood, if its world
-    /// is to be traced.
+    /// Executes a frame, and reads what `question` asks for. `understood` is what is known of it, if its world is to be
+    /// traced.
     pub(crate) fn execute_and_read(
         &mut self,
         frame: &Frame,
         question: Option<Question>,
-        tracing: Option<&Tracing>,
+        understood: Option<&Understood>,
     ) -> Result<Option<Readback>, RenderError> {
         self.collect(self.current)?;
         self.resize(frame)?;
         self.slots[self.current].arena.reset();
         self.ranges.begin_frame();
         self.raster.begin_frame(frame);
+        let tracing = understood.and_then(|understood| understood.tracing.as_ref());
         let prepared = self.prepare(frame, question, tracing)?;
         let recorded = self.record(frame, &prepared);
         if recorded.is_err() {
@@ -66,7 +70,7 @@ impl Renderer {
             }
         }
         recorded?;
-        self.note(frame, &prepared);
+        self.note(frame, &prepared, understood.map(|understood| understood.report.clone()));
         self.advance();
         for image in &prepared.plan.dropped {
             self.textures.remove(&self.table, *image);
@@ -176,8 +180,8 @@ impl Renderer {
     /// Records and submits; the states of what lives longer than the frame are those that it leaves.
     fn record(&mut self, frame: &Frame, prepared: &Prepared) -> Result<(), RenderError> {
         let gpu = self.gpu.clone();
-        let recording = gpu.record()?;
-        if let Some(timer) = &mut self.slots[self.current].timer {
+        let mut recording = gpu.record()?;
+        if let PassClock::Device(timer) = &mut self.slots[self.current].clock {
             timer.restart(&recording);
         }
         let graph = &prepared.schedule.graph;
@@ -188,12 +192,22 @@ impl Renderer {
             let name = graph.pass_name(step.pass).unwrap_or_default();
             let slot = &mut self.slots[self.current];
             slot.report.add_pass(name);
-            let scope = slot.timer.as_mut().map(|timer| timer.begin(&recording, name));
+            let scope = match &mut slot.clock {
+                PassClock::Device(timer) => Some(timer.begin(&recording, name)),
+                PassClock::Host | PassClock::None => None,
+            };
             let work = &prepared.schedule.work[step.pass.index()];
             self.work(&recording, work, frame, prepared)?;
             let slot = &mut self.slots[self.current];
-            if let (Some(timer), Some(scope)) = (&mut slot.timer, scope) {
-                timer.end(&recording, scope);
+            match (&mut slot.clock, scope) {
+                (PassClock::Device(timer), Some(scope)) => timer.end(&recording, scope),
+                (PassClock::Host, _) => {
+                    let begun = Instant::now();
+                    gpu.wait(recording.submit()?)?;
+                    slot.report.add_time(name, begun.elapsed().as_nanos() as u64);
+                    recording = gpu.record()?;
+                }
+                _ => {}
             }
         }
         self.slots[self.current].submission = Some(recording.submit()?);
@@ -319,9 +333,10 @@ impl Renderer {
     }
 
     /// Counts what the frame took.
-    fn note(&mut self, frame: &Frame, prepared: &Prepared) {
+    fn note(&mut self, frame: &Frame, prepared: &Prepared, scene: Option<SceneReport>) {
         let slot = &mut self.slots[self.current];
         let passes = std::mem::take(&mut slot.report.passes);
+        let graph = prepared.schedule.graph.report();
         slot.report = FrameReport {
             index: self.swaps,
             passes,
@@ -331,7 +346,9 @@ impl Renderer {
             pipelines: self.raster.pipelines.len(),
             textures: self.textures.len(),
             retained_ranges: self.ranges.len(),
-            culled: prepared.schedule.graph.report().culled,
+            culled: graph.culled,
+            bytes: graph.bytes,
+            scene,
             traced: prepared.traced.as_ref().map(|traced| traced.counts),
         };
     }

@@ -36,9 +36,10 @@ mod textures;
 mod uploads;
 mod window;
 
+pub use afterglow_frame_graph::CulledReport;
 pub use afterglow_records::Paint;
 pub use error::RenderError;
 pub use pathtrace::{Displaced, Mode, PathtraceOptions, TraceCounts};
 pub use renderer::{RenderOptions, Renderer};
-pub use report::{FrameReport, PassReport};
+pub use report::{FrameReport, PassReport, SceneReport};
 pub use scale::Scale;

@@ -113,8 +113,8 @@ impl Renderer {
     /// # Errors
     /// If the device fails; then the frame, and what comes after it, may be lost.
     pub fn execute_traced(&mut self, frame: &mut Frame) -> Result<(), RenderError> {
-        let tracing = self.tracer.as_mut().and_then(|tracer| tracer.understand(frame));
-        self.execute_and_read(frame, None, tracing.as_ref()).map(|_| ())
+        let understood = self.tracer.as_mut().map(|tracer| tracer.understand(frame));
+        self.execute_and_read(frame, None, understood.as_ref()).map(|_| ())
     }
 
     /// Sets what frames become from now on.
@@ -218,6 +218,23 @@ impl Renderer {
         self.current = (self.current + 1) % FRAMES_IN_FLIGHT;
     }
 
+    /// Takes a frame that nobody will see, for the state that it leaves: it is rasterized in every mode.
+    pub fn submit_unlit(&mut self, frame: Frame, end: End) {
+        if let Some(tracer) = &mut self.tracer {
+            tracer.recovery.observe(&frame);
+            tracer.is_cut = false;
+        }
+        self.unless_failed(|renderer| renderer.execute(&frame));
+        self.end(frame, end);
+    }
+
+    fn end(&mut self, frame: Frame, end: End) {
+        if end == End::Swap {
+            self.swaps += 1;
+        }
+        self.recycle_frame(frame);
+    }
+
     /// Whether a frame has all that the program drew between two swaps, so that its world can be traced.
     fn is_whole(&mut self, frame: &Frame, end: End) -> bool {
         let Some(tracer) = &mut self.tracer else {
@@ -263,10 +280,7 @@ impl Backend for Renderer {
             true => renderer.execute_traced(&mut frame),
             false => renderer.execute(&frame),
         });
-        if end == End::Swap {
-            self.swaps += 1;
-        }
-        self.recycle_frame(frame);
+        self.end(frame, end);
     }
 
     fn answer(&mut self, so_far: Frame, request: Request) -> Reply {

@@ -1,8 +1,26 @@
 //! What a frame cost.
 
-use afterglow_frame_graph::CulledReport;
+use afterglow_frame_graph::{BytesReport, CulledReport};
+use afterglow_scene::{Camera, Scene, SceneLight, TriangleCounts};
 
 use crate::pathtrace::TraceCounts;
+
+/// How a frame was understood.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneReport {
+    /// The world's camera; none if there is no world.
+    pub camera: Option<Camera>,
+    /// Triangles by class.
+    pub triangles: TriangleCounts,
+    /// The lights of the world.
+    pub lights: Vec<SceneLight>,
+}
+
+impl SceneReport {
+    pub(crate) fn of(scene: &Scene) -> Self {
+        Self { camera: scene.camera, triangles: scene.triangles(), lights: scene.lights.clone() }
+    }
+}
 
 /// Time of one kind of pass.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +54,10 @@ pub struct FrameReport {
     pub retained_ranges: usize,
     /// Passes that were not needed, and why.
     pub culled: Vec<CulledReport>,
+    /// Memory of the frame graph's resources.
+    pub bytes: BytesReport,
+    /// How the frame was understood; none in `raster` mode, and of a frame that was handed over in parts.
+    pub scene: Option<SceneReport>,
     /// What of the world was traced; none if the frame was rasterized.
     pub traced: Option<TraceCounts>,
 }
@@ -78,6 +100,8 @@ impl FrameReport {
         self.textures = later.textures;
         self.retained_ranges = later.retained_ranges;
         self.culled.extend(later.culled);
+        self.bytes = later.bytes;
+        self.scene = later.scene.or(self.scene.take());
         self.traced = later.traced.or(self.traced);
     }
 }

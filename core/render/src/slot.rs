@@ -1,6 +1,6 @@
 //! What a frame in flight keeps until the device has finished with it.
 
-use afterglow_gpu::{Gpu, GpuError, GpuTimer, Submission};
+use afterglow_gpu::{DeviceKind, Gpu, GpuError, GpuTimer, Submission};
 
 use crate::queries::{Queries, SegmentPool};
 use crate::report::FrameReport;
@@ -9,11 +9,22 @@ use crate::uploads::UploadArena;
 /// Passes of a submission whose times are taken; further ones are not.
 const MOST_TIMED_PASSES: u32 = 64;
 
+/// How the time of passes is taken.
+pub(crate) enum PassClock {
+    /// Not at all.
+    None,
+    /// By the device's own clock.
+    Device(GpuTimer),
+    /// Each pass is waited for. A processor that plays the device notes the time of drawing when it gets to it, not
+    /// in the order of commands, so that its own clock says nothing.
+    Host,
+}
+
 /// One of the frames in flight.
 pub(crate) struct Slot {
     pub(crate) arena: UploadArena,
     pub(crate) pool: SegmentPool,
-    pub(crate) timer: Option<GpuTimer>,
+    pub(crate) clock: PassClock,
     pub(crate) report: FrameReport,
     /// Of the frame that uses this slot; none once it was collected.
     pub(crate) submission: Option<Submission>,
@@ -24,9 +35,10 @@ impl Slot {
         Ok(Self {
             arena: UploadArena::new(gpu),
             pool: SegmentPool::new(gpu),
-            timer: match is_timed {
-                true => Some(gpu.create_timer(MOST_TIMED_PASSES)?),
-                false => None,
+            clock: match (is_timed, gpu.info().kind) {
+                (false, _) => PassClock::None,
+                (true, DeviceKind::Cpu) => PassClock::Host,
+                (true, _) => PassClock::Device(gpu.create_timer(MOST_TIMED_PASSES)?),
             },
             report: FrameReport::default(),
             submission: None,
@@ -45,7 +57,7 @@ impl Slot {
         };
         gpu.wait(submission)?;
         queries.collect(&mut self.pool)?;
-        if let Some(timer) = &self.timer {
+        if let PassClock::Device(timer) = &self.clock {
             for timing in timer.results()? {
                 self.report.add_time(&timing.name, timing.nanoseconds);
             }

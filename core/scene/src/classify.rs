@@ -57,7 +57,7 @@ fn bake_below_lightmaps(frame: &Frame, draws: &[DrawFacts], verdicts: &mut [Verd
         let Some(base) = verdicts[i].base.filter(|_| draws[i].mixing == Mixing::Multiply) else { continue };
         if let Ok(below) = draws.binary_search_by_key(&base, |facts| facts.operation) {
             let words = &frame.fixed[draws[below].draw.fixed as usize].words;
-            verdicts[below].baked |= words.global.lighting() == 0;
+            verdicts[below].baked |= !words.is_lit();
         }
     }
 }
@@ -231,8 +231,8 @@ impl<'a> Classifier<'a> {
     /// Whether a draw that everything else covers is a surface at a place nevertheless: it moves with the world
     /// and is lit by its lights, which no sky is. Programs that cannot see below their ground draw it so.
     fn is_ground(&self, facts: &DrawFacts) -> bool {
-        let words = &self.frame.fixed[facts.draw.fixed as usize].words.global;
-        let is_lit = words.lighting() != 0 && words.lights() != 0;
+        let words = &self.frame.fixed[facts.draw.fixed as usize].words;
+        let is_lit = words.is_lit() && words.global.lights() != 0;
         is_lit && facts.mixing == Mixing::Opaque && self.is_view(facts) && !self.is_carried_along(facts)
     }
 
@@ -338,7 +338,7 @@ impl<'a> Classifier<'a> {
     /// texture with coordinates of its own multiplies another one, or the vertices differ in colour.
     fn is_baked(&self, facts: &DrawFacts) -> bool {
         let words = &self.frame.fixed[facts.draw.fixed as usize].words;
-        if words.global.lighting() != 0 {
+        if words.is_lit() {
             return false;
         }
         let has_coordinates =

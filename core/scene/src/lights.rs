@@ -46,9 +46,10 @@ pub fn gather<'a>(
     for facts in world_draws {
         let triangles = u64::from(facts.triangles);
         all += triangles;
-        let global = frame.fixed[facts.draw.fixed as usize].words.global;
+        let words = &frame.fixed[facts.draw.fixed as usize].words;
+        let global = words.global;
         let Some(lights) = frame.lights.get(facts.draw.lights as usize) else { continue };
-        if global.lighting() == 0 {
+        if !words.is_lit() {
             continue;
         }
         let enabled = (0..LIGHTS).filter(|i| global.lights() >> i & 1 != 0);

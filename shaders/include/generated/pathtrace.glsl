@@ -50,7 +50,7 @@ struct LightSource { // 80 bytes
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 176 bytes
+struct ViewRecord { // 224 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
@@ -80,6 +80,10 @@ struct ViewRecord { // 176 bytes
     uint has_movers;
     uint sum_count;
     float exposure_rate;
+    vec3 forward;
+    vec3 pixel_origin;
+    vec3 pixel_right;
+    vec3 pixel_down;
 };
 #endif
 
@@ -114,9 +118,9 @@ struct ExposureSum { // 8 bytes
 
 #ifndef STRUCT_MoverSum
 #define STRUCT_MoverSum
-struct MoverSum { // 8 bytes
-    uint traced;
-    uint program;
+struct MoverSum { // 24 bytes
+    uint traced[3];
+    uint program[3];
 };
 #endif
 

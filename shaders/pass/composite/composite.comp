@@ -2,6 +2,7 @@
 #version 460
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
@@ -10,7 +11,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2D visibility_images[];
+layout(set = 0, binding = 5) uniform utexture2D visibility_images[];
 layout(set = 0, binding = 4, rgba8) uniform image2D color_images[];
 
 layout(push_constant, scalar) uniform Push { ViewPush push; };
@@ -19,10 +20,15 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 // program's own guess.
 const float MOVER_TRACED = 0.6;
 
-// What makes a moving draw as bright as the program has it.
-float mover_scale(ViewRecord view, uint draw) {
-    MoverSum sum = MoverSums(view.movers).entries[draw];
-    return sum.traced == 0u || sum.program == 0u ? 1.0 : clamp(float(sum.program) / float(sum.traced), 0.0625, 16.0);
+// What makes a moving draw as bright as the program has it, in each colour.
+vec3 mover_scale(ViewRecord view, uint draw) {
+    vec3 scale;
+    for (uint i = 0u; i < 3u; ++i) {
+        float traced = float(MoverSums(view.movers).entries[draw].traced[i]);
+        float program = float(MoverSums(view.movers).entries[draw].program[i]);
+        scale[i] = traced == 0.0 ? 1.0 : clamp(program / traced, 0.0, 16.0);
+    }
+    return scale;
 }
 
 vec3 kind_color(uint kind) {
@@ -42,9 +48,9 @@ vec3 painted(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indir
 
 vec3 composited(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indirect, vec3 program, uvec2 pixel) {
     uint kind = surface_kind(surface);
-    uint draw = imageLoad(visibility_images[view.visibility], ivec2(pixel)).x - 1u;
-    float scale = kind == SURFACE_LIT ? ExposureBuffer(view.exposure).entries[0].scale
-        : kind == SURFACE_BAKED_MOVER ? mover_scale(view, draw) : 1.0;
+    uint draw = texelFetch(visibility_images[view.visibility], ivec2(pixel), 0).x - 1u;
+    vec3 scale = kind == SURFACE_LIT ? vec3(ExposureBuffer(view.exposure).entries[0].scale)
+        : kind == SURFACE_BAKED_MOVER ? mover_scale(view, draw) : vec3(1.0);
     vec3 shown = srgb_from_linear(min(radiance(surface, light, indirect, linear_from_srgb(program)) * scale, 1.0));
     if (kind == SURFACE_LIT || kind == SURFACE_BAKED_MOVER) {
         float fog = unpack_fourth(surface.albedo);

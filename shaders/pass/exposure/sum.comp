@@ -3,6 +3,7 @@
 #version 460
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,8 +12,8 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
-layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2D visibility_images[];
-layout(set = 0, binding = 4, rgba8) uniform image2D color_images[];
+layout(set = 0, binding = 5) uniform utexture2D visibility_images[];
+layout(set = 0, binding = 4, rgba8) uniform readonly image2D color_images[];
 
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 
@@ -29,7 +30,7 @@ vec2 pixel_sums(ViewRecord view, uvec2 pixel) {
     if (kind != SURFACE_LIT && kind != SURFACE_BAKED_MOVER) {
         return vec2(0.0);
     }
-    uint draw = imageLoad(visibility_images[view.visibility], ivec2(pixel)).x - 1u;
+    uint draw = texelFetch(visibility_images[view.visibility], ivec2(pixel), 0).x - 1u;
     vec3 program = imageLoad(color_images[view.color], ivec2(pixel)).rgb;
     float fog = unpack_fourth(surface.albedo);
     if (fog < 1.0) {
@@ -38,13 +39,17 @@ vec2 pixel_sums(ViewRecord view, uvec2 pixel) {
     program = linear_from_srgb(program);
     vec3 indirect = ColorTexels(view.indirect).entries[index].rgb;
     vec3 traced = radiance(surface, LightTexels(view.light).entries[index], indirect, program);
-    vec2 pair = fog * vec2(luminance(min(traced, 4.0)), luminance(program));
+    traced = fog * min(traced, 4.0);
+    program *= fog;
     if (kind == SURFACE_LIT) {
-        return pair;
+        return vec2(luminance(traced), luminance(program));
     }
-    uvec2 units = uvec2(pair * MOVER_SCALE + 0.5);
-    atomicAdd(MoverSums(view.movers).entries[draw].traced, units.x);
-    atomicAdd(MoverSums(view.movers).entries[draw].program, units.y);
+    uvec3 traced_units = uvec3(traced * MOVER_SCALE + 0.5);
+    uvec3 program_units = uvec3(program * MOVER_SCALE + 0.5);
+    for (uint i = 0u; i < 3u; ++i) {
+        atomicAdd(MoverSums(view.movers).entries[draw].traced[i], traced_units[i]);
+        atomicAdd(MoverSums(view.movers).entries[draw].program[i], program_units[i]);
+    }
     return vec2(0.0);
 }
 

@@ -2,6 +2,7 @@
 // A-Trous Wavelet Transform for fast Global Illumination Filtering, HPG 2010): surfaces guide it, not light.
 #version 460
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,11 +13,18 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 
-// B3 spline.
-const float KERNEL[3] = float[3](0.375, 0.25, 0.0625);
+// Weights of taps by how many of x and y are not 0.
+const float KERNEL[3] = float[3](0.25, 0.125, 0.0625);
 // How far from the plane of the middle a surface may lie, in distances between taps.
-const float PLANE_TOLERANCE = 1.0;
-const float NORMAL_EXPONENT = 32.0;
+const float PLANE_TOLERANCE = 1.5;
+
+float thirty_second_power(float x) {
+    x *= x;
+    x *= x;
+    x *= x;
+    x *= x;
+    return x * x;
+}
 
 void main() {
     ViewRecord view = ViewTable(push.view).entries[0];
@@ -28,34 +36,36 @@ void main() {
     SurfaceTexels surfaces = SurfaceTexels(view.surfaces);
     ColorTexels source = ColorTexels(push.source);
     uint index = uint(pixel.y * size.x + pixel.x);
-    SurfaceTexel middle = surfaces.entries[index];
-    vec4 color = source.entries[index];
-    if (surface_kind(middle) != SURFACE_NONE) {
-        vec3 normal = unpack_unit_vector(middle.normal);
-        vec3 plane = unpack_unit_vector(middle.geometric);
-        float tolerance = PLANE_TOLERANCE * float(push.step) * view.pixel_spread * length(middle.start);
-        float weight = KERNEL[0] * KERNEL[0];
+    vec4 middle = source.entries[index];
+    vec3 color = middle.rgb;
+    // Depth is 0 where nothing is seen, and negative for the view's second kind of surfaces.
+    if (middle.w != 0.0) {
+        vec3 normal = unpack_unit_vector(surfaces.entries[index].normal);
+        vec3 middle_ray = view.pixel_origin + view.pixel_right * float(pixel.x) + view.pixel_down * float(pixel.y);
+        float depth = abs(middle.w);
+        float tolerance = 1.0 / (PLANE_TOLERANCE * float(push.step) * view.pixel_spread * depth);
+        float weight = KERNEL[0];
         color *= weight;
-        for (int y = -2; y <= 2; ++y) {
-            for (int x = -2; x <= 2; ++x) {
-                ivec2 at = pixel + ivec2(x, y) * int(push.step);
-                if ((x == 0 && y == 0) || any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) {
-                    continue;
-                }
-                uint tap = uint(at.y * size.x + at.x);
-                SurfaceTexel other = surfaces.entries[tap];
-                if (surface_kind(other) != surface_kind(middle)) {
-                    continue;
-                }
-                float facing = max(dot(normal, unpack_unit_vector(other.normal)), 0.0);
-                float distance_to_plane = abs(dot(plane, other.start - middle.start));
-                float share = KERNEL[abs(x)] * KERNEL[abs(y)] * pow(facing, NORMAL_EXPONENT)
-                    * exp(-distance_to_plane / max(tolerance, 1e-12));
-                color += share * source.entries[tap];
-                weight += share;
+        [[dont_unroll]] for (int i = 0; i < 9; ++i) {
+            ivec2 offset = ivec2(i % 3, i / 3) - 1;
+            ivec2 at = pixel + offset * int(push.step);
+            if (i == 4 || any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) {
+                continue;
             }
+            uint tap = uint(at.y * size.x + at.x);
+            vec4 other = source.entries[tap];
+            if (sign(other.w) != sign(middle.w)) {
+                continue;
+            }
+            vec3 ray = middle_ray + (view.pixel_right * float(offset.x) + view.pixel_down * float(offset.y)) * float(push.step);
+            float from_plane = abs(dot(normal, ray * abs(other.w) - middle_ray * depth));
+            float facing = max(dot(normal, unpack_unit_vector(surfaces.entries[tap].normal)), 0.0);
+            float share = KERNEL[abs(offset.x) + abs(offset.y)] * thirty_second_power(facing)
+                * max(1.0 - from_plane * tolerance, 0.0);
+            color += share * other.rgb;
+            weight += share;
         }
         color /= weight;
     }
-    ColorTexels(push.target).entries[index] = color;
+    ColorTexels(push.target).entries[index] = vec4(color, middle.w);
 }

@@ -237,5 +237,9 @@ void main() {
         }
     }
     LightTexels(view.light).entries[index] = light;
-    ColorTexels(push.target).entries[index] = vec4(light.indirect, 0.0);
+    // In one view there are two kinds at most that must not be mixed: the sign of the depth tells them apart.
+    uint kind = surface_kind(surface);
+    float depth = max(dot(view.forward, surface.start), 1e-20);
+    bool is_second = kind == SURFACE_CATCHER || kind == SURFACE_BAKED_MOVER;
+    ColorTexels(push.target).entries[index] = vec4(light.indirect, kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth);
 }

@@ -4,6 +4,7 @@
 #extension GL_EXT_buffer_reference2 : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
@@ -15,8 +16,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 4, rg32ui) uniform readonly uimage2D visibility_images[];
-layout(set = 0, binding = 4, rgba8) uniform readonly image2D color_images[];
+layout(set = 0, binding = 5) uniform utexture2D visibility_images[];
+layout(set = 0, binding = 5) uniform texture2D albedo_images[];
 
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 
@@ -111,7 +112,7 @@ SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint tr
     // In perspective, w is the distance along the view.
     float away = abs(weights.x * clip[0].z + weights.y * clip[1].z + weights.z * clip[2].z);
     float fog = fog_left(view, draw, state, triangle, weights, away);
-    vec3 albedo = imageLoad(color_images[view.albedo], ivec2(pixel)).rgb;
+    vec3 albedo = texelFetch(albedo_images[view.albedo], ivec2(pixel), 0).rgb;
     texel.specular = 0u;
     vec3 emission = vec3(0.0);
     if (draw.it.kind == SURFACE_LIT && state.lighting) {
@@ -134,7 +135,7 @@ void main() {
     if (any(greaterThanEqual(pixel, view_size(view)))) {
         return;
     }
-    uvec2 seen = imageLoad(visibility_images[view.visibility], ivec2(pixel)).xy;
+    uvec2 seen = texelFetch(visibility_images[view.visibility], ivec2(pixel), 0).xy;
     SurfaceTexel texel = SurfaceTexel(vec3(0.0), 0u, 0u, 0u, 0u, 0u);
     if (seen.x != 0u) {
         texel = seen_surface(view, pixel, seen.x - 1u, seen.y);

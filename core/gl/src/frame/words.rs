@@ -227,3 +227,85 @@ unsafe impl bytemuck::Pod for StateWords {}
 
 /// Number of words in [`StateWords`].
 pub const STATE_WORDS: usize = 2 + 3 * TEXTURE_UNITS;
+
+impl StateWords {
+    /// Whether lighting shows: an environment such as GL_REPLACE may leave nothing of its result.
+    pub fn is_lit(&self) -> bool {
+        self.global.lighting() != 0 && self.shows_primary()
+    }
+
+    /// Whether a fragment's red, green and blue depend on its colour before texturing.
+    fn shows_primary(&self) -> bool {
+        let enabled = self.units.iter().filter(|unit| unit.target() != 0);
+        enabled.fold(true, |shows, unit| unit.passes_primary(shows))
+    }
+}
+
+impl UnitWords {
+    /// Whether this unit's colour depends on the primary one; `previous` says so of the unit before.
+    fn passes_primary(&self, previous: bool) -> bool {
+        let (mode, base) = (self.env_mode(), self.base_format());
+        if mode == EnvMode::Combine as u32 {
+            return self.combined_sources().any(|source| {
+                source == CombineSource::Primary as u32
+                    || (source == CombineSource::Previous as u32 && previous)
+            });
+        }
+        let replaces = mode == EnvMode::Replace as u32 && base != BaseFormat::Alpha as u32;
+        let covers = mode == EnvMode::Decal as u32 && base == BaseFormat::Rgb as u32;
+        previous && !replaces && !covers
+    }
+
+    /// Sources of the colour that its combine function reads.
+    fn combined_sources(&self) -> impl Iterator<Item = u32> {
+        let count = match self.combine_rgb() {
+            f if f == CombineFunction::Replace as u32 => 1,
+            f if f == CombineFunction::Interpolate as u32 => 3,
+            _ => 2,
+        };
+        [self.source_rgb0(), self.source_rgb1(), self.source_rgb2()].into_iter().take(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lit, with these modes in the first units, all of which have RGB textures.
+    fn lit(modes: &[EnvMode]) -> StateWords {
+        let mut words = StateWords::default();
+        words.global.set_lighting(1);
+        for (unit, mode) in words.units.iter_mut().zip(modes) {
+            unit.set_target(1);
+            unit.set_base_format(BaseFormat::Rgb as u32);
+            unit.set_env_mode(*mode as u32);
+        }
+        words
+    }
+
+    #[test]
+    fn light_shows_unless_a_texture_takes_its_place() {
+        assert!(!StateWords::default().is_lit());
+        assert!(lit(&[]).is_lit());
+        assert!(lit(&[EnvMode::Modulate, EnvMode::Add]).is_lit());
+        assert!(!lit(&[EnvMode::Replace]).is_lit());
+        assert!(!lit(&[EnvMode::Decal, EnvMode::Modulate]).is_lit());
+        assert!(!lit(&[EnvMode::Modulate, EnvMode::Replace]).is_lit());
+        let mut alpha = lit(&[EnvMode::Replace]);
+        alpha.units[0].set_base_format(BaseFormat::Alpha as u32);
+        assert!(alpha.is_lit());
+    }
+
+    #[test]
+    fn combiners_show_light_that_they_read() {
+        let mut words = lit(&[EnvMode::Replace, EnvMode::Combine]);
+        let unit = &mut words.units[1];
+        unit.set_combine_rgb(CombineFunction::Modulate as u32);
+        unit.set_source_rgb0(CombineSource::Texture as u32);
+        unit.set_source_rgb1(CombineSource::Previous as u32);
+        unit.set_source_rgb2(CombineSource::Primary as u32);
+        assert!(!words.is_lit());
+        words.units[1].set_source_rgb1(CombineSource::Primary as u32);
+        assert!(words.is_lit());
+    }
+}

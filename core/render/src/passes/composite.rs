@@ -13,7 +13,7 @@ pub(crate) fn declare(
     needs: &ViewNeeds,
 ) {
     let mut pass = graph.pass("composite", PassKind::Compute);
-    pass.read(views.visibility, Access::StorageReadCompute)
+    pass.read(views.visibility, Access::SampledCompute)
         .read(views.surfaces, Access::StorageReadCompute)
         .read(views.light[view], Access::StorageReadCompute)
         .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)

@@ -24,7 +24,7 @@ pub(crate) fn declare_sum(
     needs: &ViewNeeds,
 ) {
     let mut pass = graph.pass("exposure sums", PassKind::Compute);
-    pass.read(views.visibility, Access::StorageReadCompute)
+    pass.read(views.visibility, Access::SampledCompute)
         .read(views.surfaces, Access::StorageReadCompute)
         .read(views.light[view], Access::StorageReadCompute)
         .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)

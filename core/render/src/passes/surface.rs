@@ -8,8 +8,8 @@ use crate::schedule::Resources;
 pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewResources, needs: &ViewNeeds) {
     graph
         .pass("surface", PassKind::Compute)
-        .read(views.visibility, Access::StorageReadCompute)
-        .read(views.albedo, Access::StorageReadCompute)
+        .read(views.visibility, Access::SampledCompute)
+        .read(views.albedo, Access::SampledCompute)
         // Not read yet, but named by the same array of images, which must all be ready then.
         .read(frame.color, Access::StorageReadCompute)
         .read(frame.geometry, Access::StorageReadCompute)

@@ -34,9 +34,9 @@ pub(crate) struct ViewBuffers {
     pub(crate) visibility: TrackedImage,
     /// Colours without light.
     pub(crate) albedo: TrackedImage,
-    /// Bindless index of the albedo as a storage image.
+    /// Bindless index of the albedo as a drawn image.
     pub(crate) albedo_index: u32,
-    /// Bindless index of the visibility as a storage image.
+    /// Bindless index of the visibility as a drawn image.
     pub(crate) visibility_index: u32,
     /// The colour image that [`ViewBuffers::color_index`] names.
     color: vk::Image,
@@ -55,7 +55,7 @@ pub(crate) struct ViewBuffers {
 impl ViewBuffers {
     pub(crate) fn new(gpu: &Gpu, table: &BindlessTable, target: &Target) -> Result<Self, GpuError> {
         let size = target.size;
-        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::STORAGE;
+        let usage = vk::ImageUsageFlags::COLOR_ATTACHMENT | vk::ImageUsageFlags::SAMPLED;
         let image = |name, format| gpu.create_image(&ImageDesc::d2(name, format, size, usage));
         let visibility = image("visibility", VISIBILITY_FORMAT)?;
         let albedo = image("albedo", COLOR_FORMAT)?;
@@ -63,8 +63,8 @@ impl ViewBuffers {
         let buffer = |name, bytes| Tracked::new(gpu, name, bytes);
         Ok(Self {
             size,
-            visibility_index: storage_index(table, &visibility)?,
-            albedo_index: storage_index(table, &albedo)?,
+            visibility_index: drawn_index(table, &visibility)?,
+            albedo_index: drawn_index(table, &albedo)?,
             albedo: TrackedImage { image: albedo, state: ResourceState::UNDEFINED },
             visibility: TrackedImage { image: visibility, state: ResourceState::UNDEFINED },
             color: target.color.raw(),
@@ -106,8 +106,8 @@ impl ViewBuffers {
 
     /// Gives the places in the table back.
     pub(crate) fn release(self, table: &BindlessTable) {
-        table.remove(BindlessKind::StorageImage, self.visibility_index);
-        table.remove(BindlessKind::StorageImage, self.albedo_index);
+        table.remove(BindlessKind::DrawnImage, self.visibility_index);
+        table.remove(BindlessKind::DrawnImage, self.albedo_index);
         table.remove(BindlessKind::StorageImage, self.color_index);
     }
 }
@@ -138,6 +138,10 @@ fn pixels([width, height]: [u32; 2]) -> u64 {
 
 fn stride<T: SharedStruct>() -> u64 {
     size_of::<T>() as u64
+}
+
+fn drawn_index(table: &BindlessTable, image: &Image) -> Result<u32, GpuError> {
+    table.add_image(BindlessKind::DrawnImage, image.view(), vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL)
 }
 
 fn storage_index(table: &BindlessTable, image: &Image) -> Result<u32, GpuError> {

@@ -123,34 +123,6 @@ impl<'a> Gatherer<'a, '_> {
     fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let kind = self.lighting.kind(verdict, words);
-        if std::env::var_os("PTDEBUG").is_some() {
-            let e = &self.input.frame.environments[place.draw.environment as usize];
-            let r = &self.input.frame.fixed[place.draw.fixed as usize].raster;
-            let t = self.input.frame.transforms[place.draw.transform as usize];
-            eprintln!(
-                "{} {:?} {:?} lit {} units {:?} env {:?} fog {} {}..{} d {} c {:?} blend {:?} base {:?} proj {:?}",
-                place.operation,
-                verdict.class,
-                kind,
-                words.global.lighting(),
-                words.units.map(|u| u.target()),
-                words.units.map(|u| u.env_mode()),
-                words.global.fog_mode(),
-                e.fog_start,
-                e.fog_end,
-                e.fog_density,
-                e.fog_color,
-                r.blend.map(|b| b.rgb),
-                self.input.frame.materials.get(place.draw.material as usize).map(|m| (
-                    m.faces[0].emission,
-                    m.faces[0].diffuse,
-                    m.faces[0].specular,
-                    m.faces[0].shininess,
-                    words.global.separate_specular()
-                )),
-                [t.projection[2], t.projection[3]]
-            );
-        }
         let (mask, meets) = masks(verdict.class, kind);
         let surface = self.record(place, verdict, kind, meets)?;
         let triangles = self.geometry.read(self.input.frame, place.draw);

@@ -32,9 +32,10 @@ pub(crate) struct Highlights {
 impl Highlights {
     /// Notes the lights of a draw. The first draw that a light shines on says what colour it has.
     pub(crate) fn note(&mut self, frame: &Frame, draw: &Draw) {
-        let global = &frame.fixed[draw.fixed as usize].words.global;
+        let words = &frame.fixed[draw.fixed as usize].words;
+        let global = &words.global;
         let Some(lights) = frame.lights.get(draw.lights as usize) else { return };
-        if global.lighting() == 0 {
+        if !words.is_lit() {
             return;
         }
         for (number, color) in self.colors.iter_mut().enumerate() {

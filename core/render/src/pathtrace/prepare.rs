@@ -4,12 +4,14 @@ use afterglow_gpu::GpuError;
 use afterglow_records::{MASK_MOVING, Paint, SurfaceKind, ViewRecord};
 use afterglow_scene::Camera;
 use bytemuck::Zeroable;
+use glam::Vec3;
 
 use super::buffers::{ViewBuffers, sum_count};
 use super::change::{ChangeHasher, History, changes_textures};
 use super::gather::{Surfaces, TraceInput, gather};
 use super::lights::light_sources;
 use super::meshes::MeshCopy;
+use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
 use super::tracer::{Tracer, Tracing};
 use super::world::{Traced, World};
@@ -21,7 +23,7 @@ const CONTACT_SHARE: f32 = 0.03;
 /// How much of the way to its new value exposure goes in a frame.
 const EXPOSURE_RATE: f32 = 0.15;
 /// Samples a pixel below which indirect light is filtered in so many steps.
-const FILTER_STEPS: [(u32, u32); 3] = [(16, 3), (64, 2), (256, 1)];
+const FILTER_STEPS: [(u32, u32); 4] = [(16, 4), (64, 3), (128, 2), (512, 1)];
 
 /// A view ready to be recorded.
 #[derive(Debug)]
@@ -73,18 +75,6 @@ pub(crate) fn prepare(
 ) -> Result<PreparedTrace, GpuError> {
     tracer.world.begin_frame();
     let origin = camera.view.inverse().w_axis.truncate();
-    if std::env::var_os("PTDEBUG").is_some() {
-        let s = &tracing.scene;
-        eprintln!(
-            "scene lights {:#?} sky {:?} ambient {:?} baked {} origin {:?} counts {:?}",
-            s.lights,
-            s.sky,
-            s.ambient,
-            s.baked,
-            origin,
-            s.triangles()
-        );
-    }
     let geometry = &mut tracer.world.geometry;
     let surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
     if let Some(buffers) = &mut tracer.buffers {
@@ -133,7 +123,7 @@ impl Tracer {
             hasher.add(input.frame, traced.draw, record, traced.triangles.hash);
         }
         let is_mover = |traced: &Traced<'_>| u32::from(traced.mask) & MASK_MOVING != 0;
-        let focal_length = camera.projection.y_axis.y.abs();
+        let rays = PixelRays::new(camera, size);
         let address = |upload: Result<Upload, GpuError>| upload.map(|upload| upload.address);
         Ok(Common {
             record: ViewRecord {
@@ -151,10 +141,14 @@ impl Tracer {
                 contact_reach: CONTACT_SHARE * world.extent,
                 ambient: scene.ambient.to_array(),
                 paint: options.paint as u32,
-                pixel_spread: 2.0 / (focal_length * size[1] as f32).max(1e-6),
+                pixel_spread: Vec3::from(rays.down).length(),
                 has_movers: surfaces.traced.iter().any(is_mover).into(),
                 sum_count: sum_count(size),
                 exposure_rate: if self.has_exposure { EXPOSURE_RATE } else { 1.0 },
+                forward: rays.forward,
+                pixel_origin: rays.origin,
+                pixel_right: rays.right,
+                pixel_down: rays.down,
                 ..ViewRecord::zeroed()
             },
             hash: hasher.finish(),

@@ -35,7 +35,7 @@ impl Lighting {
     /// How light is found for a draw.
     pub(crate) fn kind(self, verdict: &Verdict, words: &StateWords) -> SurfaceKind {
         match self {
-            Self::Lights if words.global.lighting() != 0 => SurfaceKind::Lit,
+            Self::Lights if words.is_lit() => SurfaceKind::Lit,
             Self::Lights => SurfaceKind::Catcher,
             Self::MadeUp if verdict.baked => SurfaceKind::Catcher,
             Self::MadeUp => SurfaceKind::Lit,
@@ -81,7 +81,10 @@ pub(crate) fn surface_draw(
 ) -> SurfaceDraw {
     let fixed = &frame.fixed[draw.fixed as usize];
     let viewport = frame.viewports[draw.viewport as usize].rect;
-    let words: &[u32] = bytemuck::cast_slice(std::slice::from_ref(&fixed.words));
+    let mut words = fixed.words;
+    // Where no light shows, shaders need not look for any.
+    words.global.set_lighting(words.is_lit().into());
+    let words: &[u32] = bytemuck::cast_slice(std::slice::from_ref(&words));
     let record = located.record;
     SurfaceDraw {
         vertices: record.vertices,

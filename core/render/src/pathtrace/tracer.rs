@@ -13,7 +13,16 @@ use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
 use super::schedule::{ExposureUse, ViewResources};
 use super::world::WorldBuilder;
+use crate::report::SceneReport;
 use crate::target::Target;
+
+/// A frame that was judged.
+#[derive(Debug)]
+pub(crate) struct Understood {
+    pub(crate) report: SceneReport,
+    /// None if there is nothing to trace: the frame stays as it is.
+    pub(crate) tracing: Option<Tracing>,
+}
 
 /// A frame that is to be traced.
 #[derive(Debug, Default)]
@@ -71,16 +80,16 @@ impl Tracer {
         }))
     }
 
-    /// Judges a frame and puts it in order; none if it has no world, and stays as it is.
-    pub(crate) fn understand(&mut self, frame: &mut Frame) -> Option<Tracing> {
+    /// Judges a frame, and puts it in order if it has a world.
+    pub(crate) fn understand(&mut self, frame: &mut Frame) -> Understood {
         let mut scene = self.recovery.understand(frame);
-        scene.camera?;
-        let arrangement = arrange(frame, &scene);
-        if arrangement.views.is_empty() {
-            return None;
-        }
-        arrangement.apply(frame, &mut scene);
-        Some(Tracing { scene, arrangement })
+        let report = SceneReport::of(&scene);
+        let arrangement = scene.camera.map(|_| arrange(frame, &scene));
+        let tracing = arrangement.filter(|arrangement| !arrangement.views.is_empty()).map(|arrangement| {
+            arrangement.apply(frame, &mut scene);
+            Tracing { scene, arrangement }
+        });
+        Understood { report, tracing }
     }
 
     /// Makes buffers that fit the window, for so many views.

@@ -5,6 +5,7 @@
 //! defines; in `pathtrace` mode the world in it is lit by rays (`pathtrace`).
 
 mod bindings;
+mod drawables;
 mod error;
 mod execute;
 mod graph;

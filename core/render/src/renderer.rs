@@ -3,7 +3,9 @@
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::{Frame, PixelBuffer, Rect};
 use afterglow_gpu::{BindlessSizes, BindlessTable, Gpu, GpuError};
+use hashbrown::HashMap;
 
+use crate::drawables::Seat;
 use crate::error::RenderError;
 use crate::passes::accumulate::Accumulator;
 use crate::passes::copy::Flip;
@@ -54,6 +56,10 @@ pub struct Renderer {
     pub(crate) report: FrameReport,
     /// Path tracing; none in `raster` mode.
     pub(crate) tracer: Option<Tracer>,
+    /// The number of the selected drawable; 0 before one was selected.
+    pub(crate) drawable: u64,
+    /// The other drawables.
+    pub(crate) seats: HashMap<u64, Seat>,
     recycled: Vec<Frame>,
     has_failed: bool,
     /// Dropped last of all: slots of the table are given back to it.
@@ -83,6 +89,8 @@ impl Renderer {
             swaps: 0,
             report: FrameReport::default(),
             tracer: None,
+            drawable: 0,
+            seats: HashMap::new(),
             recycled: Vec::new(),
             has_failed: false,
             table,

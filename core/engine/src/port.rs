@@ -1,0 +1,115 @@
+//! The backend of a context: frames go to the drawable that is current.
+
+use std::sync::Arc;
+use std::sync::mpsc;
+
+use afterglow_gl::SharedNames;
+use afterglow_gl::backend::{Backend, End, Reply, Request};
+use afterglow_gl::frame::Frame;
+use parking_lot::Mutex;
+
+use crate::drawable::Drawable;
+use crate::message::Message;
+use crate::thread::Engine;
+
+/// Contexts that share names, and with them images on the device.
+#[derive(Clone)]
+pub struct ShareGroup {
+    shared: Arc<GroupShared>,
+}
+
+struct GroupShared {
+    id: u64,
+    engine: Engine,
+    names: SharedNames,
+}
+
+impl ShareGroup {
+    pub(crate) fn new(engine: Engine, id: u64) -> Self {
+        Self { shared: Arc::new(GroupShared { id, engine, names: SharedNames::default() }) }
+    }
+
+    /// The names that its contexts share.
+    pub fn names(&self) -> SharedNames {
+        self.shared.names.clone()
+    }
+}
+
+impl Drop for GroupShared {
+    fn drop(&mut self) {
+        self.engine.send(Message::DropGroup { group: self.id });
+    }
+}
+
+/// Where a context's frames go. A clone is the same port: one is the context's backend, the other stays with the
+/// window system, which says what is current.
+#[derive(Clone)]
+pub struct Port {
+    group: ShareGroup,
+    bound: Arc<Mutex<Bound>>,
+}
+
+#[derive(Default)]
+struct Bound {
+    draw: Option<Drawable>,
+    read: Option<Drawable>,
+}
+
+impl Port {
+    /// A port for one context of a group, bound to nothing.
+    pub fn new(group: &ShareGroup) -> Self {
+        Self { group: group.clone(), bound: Arc::default() }
+    }
+
+    /// Says what the context draws to and reads from. What has been recorded must have been handed over.
+    pub fn bind(&self, draw: Option<Drawable>, read: Option<Drawable>) {
+        *self.bound.lock() = Bound { draw, read };
+    }
+
+    fn engine(&self) -> &Engine {
+        &self.group.shared.engine
+    }
+
+    fn draw(&self) -> Option<Drawable> {
+        self.bound.lock().draw.clone()
+    }
+
+    /// The drawable that pixels are read from, if it is not the one that is drawn to.
+    fn other_read(&self) -> Option<Drawable> {
+        let bound = self.bound.lock();
+        let (draw, read) = (bound.draw.as_ref()?, bound.read.as_ref()?);
+        (draw.shared.id != read.shared.id).then(|| read.clone())
+    }
+
+    fn ask(&self, drawable: Drawable, frame: Frame, request: Request) -> Reply {
+        let (reply, answer) = mpsc::sync_channel(1);
+        self.engine().send(Message::Ask { group: self.group.shared.id, drawable, frame, request, reply });
+        answer.recv().unwrap_or(Reply::Unavailable)
+    }
+}
+
+impl Backend for Port {
+    fn submit(&mut self, frame: Frame, end: End) {
+        let Some(drawable) = self.draw() else { return };
+        if end == End::Swap && self.engine().is_alive() {
+            drawable.shared.queue.enter();
+        }
+        self.engine().send(Message::Frame { group: self.group.shared.id, drawable, frame, end });
+    }
+
+    fn answer(&mut self, so_far: Frame, request: Request) -> Reply {
+        let Some(drawable) = self.draw() else { return Reply::Unavailable };
+        match (self.other_read(), request) {
+            (Some(read), Request::Pixels { .. }) => {
+                self.ask(drawable, so_far, Request::Finish);
+                let size = read.size();
+                self.ask(read, Frame { size, ..Frame::default() }, request)
+            }
+            _ => self.ask(drawable, so_far, request),
+        }
+    }
+
+    fn recycle(&mut self) -> Frame {
+        self.engine().recycled()
+    }
+}

@@ -1,0 +1,261 @@
+//! The thread that owns the device.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, mpsc};
+
+use afterglow_gl::backend::{Backend, End, Reply, Request};
+use afterglow_gl::frame::Frame;
+use afterglow_gpu::{DeviceInfo, Gpu, GpuError, GpuOptions};
+use afterglow_render::{Mode, PathtraceOptions, RenderOptions, Renderer};
+use parking_lot::Mutex;
+
+use crate::drawable::{Drawable, Surface};
+use crate::message::Message;
+use crate::port::ShareGroup;
+use crate::window::Window;
+use crate::xcb::Servers;
+
+/// Empty frames that are kept to be filled again.
+const RECYCLED_FRAMES: usize = 4;
+
+/// How to render.
+#[derive(Debug, Clone, Default)]
+pub struct EngineOptions {
+    /// Which device.
+    pub gpu: GpuOptions,
+    /// What frames become.
+    pub mode: Mode,
+    /// How worlds are traced.
+    pub pathtrace: PathtraceOptions,
+}
+
+/// Why there is no render thread.
+#[derive(Debug, thiserror::Error)]
+pub enum EngineError {
+    /// No device.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// No thread.
+    #[error("cannot start the render thread: {0}")]
+    Thread(#[from] std::io::Error),
+    /// The thread ended before it said anything.
+    #[error("the render thread failed to start")]
+    Died,
+}
+
+/// The render thread, as other threads see it. A clone is the same thread; it ends when the last one is gone.
+#[derive(Clone)]
+pub struct Engine {
+    shared: Arc<Shared>,
+}
+
+struct Shared {
+    sender: Mutex<mpsc::Sender<Message>>,
+    alive: Arc<AtomicBool>,
+    recycled: Arc<Mutex<Vec<Frame>>>,
+    /// A forked process has no render thread.
+    process: u32,
+    last_id: AtomicU64,
+    device: DeviceInfo,
+}
+
+impl Engine {
+    /// Opens the device and starts the thread.
+    ///
+    /// # Errors
+    /// If there is no device that serves, or no thread.
+    pub fn start(options: EngineOptions) -> Result<Self, EngineError> {
+        let (sender, receiver) = mpsc::channel();
+        let (ready, is_ready) = mpsc::sync_channel(1);
+        let recycled = Arc::<Mutex<Vec<Frame>>>::default();
+        let alive = Arc::new(AtomicBool::new(true));
+        let (frames, lives) = (recycled.clone(), alive.clone());
+        std::thread::Builder::new().name("afterglow-render".into()).spawn(move || {
+            let opened = Gpu::new(&options.gpu).map(|gpu| {
+                let info = gpu.info().clone();
+                (State::new(gpu, options, frames), info)
+            });
+            let state = match opened {
+                Ok((state, info)) => {
+                    let _ = ready.send(Ok(info));
+                    state
+                }
+                Err(error) => {
+                    let _ = ready.send(Err(error));
+                    return;
+                }
+            };
+            let _guard = Ending(lives);
+            state.run(&receiver);
+        })?;
+        let device = is_ready.recv().map_err(|_| EngineError::Died)??;
+        let shared = Shared {
+            sender: Mutex::new(sender),
+            alive,
+            recycled,
+            process: std::process::id(),
+            last_id: AtomicU64::new(0),
+            device,
+        };
+        Ok(Self { shared: Arc::new(shared) })
+    }
+
+    /// The device.
+    pub fn device(&self) -> &DeviceInfo {
+        &self.shared.device
+    }
+
+    /// Whether the thread runs, in this process.
+    pub fn is_alive(&self) -> bool {
+        self.shared.alive.load(Ordering::Relaxed) && self.shared.process == std::process::id()
+    }
+
+    /// A new group of contexts.
+    pub fn share_group(&self) -> ShareGroup {
+        ShareGroup::new(self.clone(), self.next_id())
+    }
+
+    /// Something to draw to, of this size at first.
+    pub fn drawable(&self, surface: Surface, size: (u32, u32)) -> Drawable {
+        let id = self.next_id();
+        self.send(Message::Drawable { drawable: id, surface });
+        Drawable::new(self.clone(), id, size)
+    }
+
+    fn next_id(&self) -> u64 {
+        self.shared.last_id.fetch_add(1, Ordering::Relaxed) + 1
+    }
+
+    /// Sends a message; nobody gets it if the thread is gone.
+    pub(crate) fn send(&self, message: Message) {
+        if self.is_alive() {
+            let _ = self.shared.sender.lock().send(message);
+        }
+    }
+
+    /// An empty frame, with the memory of an earlier one where possible.
+    pub(crate) fn recycled(&self) -> Frame {
+        self.shared.recycled.lock().pop().unwrap_or_default()
+    }
+}
+
+/// Says that the thread is gone, however it ended.
+struct Ending(Arc<AtomicBool>);
+
+impl Drop for Ending {
+    fn drop(&mut self) {
+        self.0.store(false, Ordering::Relaxed);
+    }
+}
+
+/// Everything that the thread owns.
+struct State {
+    gpu: Gpu,
+    options: EngineOptions,
+    recycled: Arc<Mutex<Vec<Frame>>>,
+    /// By share group.
+    renderers: HashMap<u64, Renderer>,
+    /// By drawable.
+    windows: HashMap<u64, Window>,
+    /// Dropped after all windows.
+    servers: Servers,
+}
+
+impl State {
+    fn new(gpu: Gpu, options: EngineOptions, recycled: Arc<Mutex<Vec<Frame>>>) -> Self {
+        Self {
+            gpu,
+            options,
+            recycled,
+            renderers: HashMap::new(),
+            windows: HashMap::new(),
+            servers: Servers::default(),
+        }
+    }
+
+    /// Handles messages until nobody can send any more.
+    fn run(mut self, messages: &mpsc::Receiver<Message>) {
+        while let Ok(message) = messages.recv() {
+            self.handle(message);
+        }
+    }
+
+    fn handle(&mut self, message: Message) {
+        match message {
+            Message::Drawable { drawable, surface } => {
+                self.windows.insert(drawable, Window::new(surface));
+            }
+            Message::DropDrawable { drawable } => {
+                self.windows.remove(&drawable);
+                self.renderers.values_mut().for_each(|renderer| renderer.forget(drawable));
+            }
+            Message::DropGroup { group } => drop(self.renderers.remove(&group)),
+            Message::Frame { group, drawable, frame, end } => self.frame(group, &drawable, frame, end),
+            Message::Ask { group, drawable, frame, request, reply } => {
+                let _ = reply.send(self.answer(group, &drawable, frame, request));
+            }
+            Message::Present { drawable } => self.present(&drawable),
+        }
+    }
+
+    fn frame(&mut self, group: u64, drawable: &Drawable, frame: Frame, end: End) {
+        let id = drawable.shared.id;
+        if let Some(renderer) = self.renderer(group, id) {
+            renderer.submit(frame, end);
+            let empty = renderer.recycle();
+            let mut recycled = self.recycled.lock();
+            if recycled.len() < RECYCLED_FRAMES {
+                recycled.push(empty);
+            }
+        }
+        if end == End::Swap {
+            self.present(drawable);
+            drawable.shared.queue.leave();
+        }
+    }
+
+    fn answer(&mut self, group: u64, drawable: &Drawable, frame: Frame, request: Request) -> Reply {
+        match self.renderer(group, drawable.shared.id) {
+            Some(renderer) => renderer.answer(frame, request),
+            None => Reply::Unavailable,
+        }
+    }
+
+    /// The renderer of a share group, with a drawable selected.
+    fn renderer(&mut self, group: u64, drawable: u64) -> Option<&mut Renderer> {
+        if !self.renderers.contains_key(&group) {
+            let made = self.make_renderer().map_err(|error| tracing::error!("no renderer: {error}")).ok()?;
+            self.renderers.insert(group, made);
+        }
+        let renderer = self.renderers.get_mut(&group)?;
+        renderer.select(drawable).map_err(|error| tracing::error!("no drawable: {error}")).ok()?;
+        if let Some(window) = self.windows.get_mut(&drawable) {
+            window.group = Some(group);
+        }
+        Some(renderer)
+    }
+
+    /// Shows what was drawn to a drawable last.
+    fn present(&mut self, drawable: &Drawable) {
+        let id = drawable.shared.id;
+        let Some(group) = self.windows.get(&id).and_then(|window| window.group) else { return };
+        if self.renderer(group, id).is_none() {
+            return;
+        }
+        let (Some(window), Some(renderer)) = (self.windows.get_mut(&id), self.renderers.get_mut(&group))
+        else {
+            return;
+        };
+        let waits_for_blank = drawable.swap_interval() != 0;
+        if let Some(size) = window.present(&self.gpu, &mut self.servers, renderer, waits_for_blank) {
+            drawable.set_size(size);
+        }
+    }
+
+    fn make_renderer(&self) -> Result<Renderer, afterglow_render::RenderError> {
+        let mut renderer = Renderer::new(&self.gpu, &RenderOptions::default())?;
+        renderer.set_mode(self.options.mode, &self.options.pathtrace)?;
+        Ok(renderer)
+    }
+}

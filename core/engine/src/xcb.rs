@@ -1,0 +1,35 @@
+//! Connections of our own to X servers.
+
+use std::collections::HashMap;
+
+use afterglow_gpu::{Gpu, GpuError, WindowSurface};
+use x11rb::xcb_ffi::XCBConnection;
+
+/// Connections by the server's name. They are never closed: surfaces depend on them.
+#[derive(Default)]
+pub(crate) struct Servers {
+    connections: HashMap<String, XCBConnection>,
+}
+
+impl Servers {
+    /// The surface of a window.
+    pub(crate) fn surface(
+        &mut self,
+        gpu: &Gpu,
+        display: &str,
+        window: u32,
+    ) -> Result<WindowSurface, GpuError> {
+        if !self.connections.contains_key(display) {
+            let made = connect(display).map_err(|detail| GpuError::Invalid { what: "X server", detail })?;
+            self.connections.insert(display.to_owned(), made);
+        }
+        let connection = self.connections[display].get_raw_xcb_connection();
+        // SAFETY: connections live as long as the thread that owns all surfaces, and only it uses them.
+        unsafe { gpu.xcb_surface(connection, window) }
+    }
+}
+
+fn connect(display: &str) -> Result<XCBConnection, String> {
+    let name = std::ffi::CString::new(display).map_err(|error| error.to_string())?;
+    XCBConnection::connect(Some(&name)).map(|(connection, _)| connection).map_err(|error| error.to_string())
+}

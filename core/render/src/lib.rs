@@ -11,6 +11,7 @@ mod execute;
 mod graph;
 mod numbers;
 mod overlaps;
+mod parts;
 mod passes;
 mod pathtrace;
 mod pipeline_state;

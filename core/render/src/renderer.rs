@@ -7,6 +7,7 @@ use hashbrown::HashMap;
 
 use crate::drawables::Seat;
 use crate::error::RenderError;
+use crate::parts::Parts;
 use crate::passes::accumulate::Accumulator;
 use crate::passes::copy::Flip;
 use crate::passes::raster::RasterState;
@@ -230,7 +231,7 @@ impl Renderer {
     pub fn submit_unlit(&mut self, frame: Frame, end: End) {
         if let Some(tracer) = &mut self.tracer {
             tracer.recovery.observe(&frame);
-            tracer.is_cut = false;
+            tracer.parts = Parts::None;
         }
         self.unless_failed(|renderer| renderer.execute(&frame));
         self.end(frame, end);
@@ -241,22 +242,6 @@ impl Renderer {
             self.swaps += 1;
         }
         self.recycle_frame(frame);
-    }
-
-    /// Whether a frame has all that the program drew between two swaps, so that its world can be traced.
-    fn is_whole(&mut self, frame: &Frame, end: End) -> bool {
-        let Some(tracer) = &mut self.tracer else {
-            return false;
-        };
-        let is_whole = !tracer.is_cut && end == End::Swap;
-        tracer.is_cut = end == End::Continued;
-        if !is_whole {
-            tracer.recovery.observe(frame);
-            if !std::mem::replace(&mut tracer.has_warned, true) {
-                tracing::info!("frames that are handed over in parts are rasterized");
-            }
-        }
-        is_whole
     }
 
     fn recycle_frame(&mut self, mut frame: Frame) {
@@ -284,17 +269,12 @@ impl Renderer {
 
 impl Backend for Renderer {
     fn submit(&mut self, mut frame: Frame, end: End) {
-        self.unless_failed(|renderer| match renderer.is_whole(&frame, end) {
-            true => renderer.execute_traced(&mut frame),
-            false => renderer.execute(&frame),
-        });
+        self.unless_failed(|renderer| renderer.execute_part(&mut frame, end));
         self.end(frame, end);
     }
 
-    fn answer(&mut self, so_far: Frame, request: Request) -> Reply {
-        let goes_on = !so_far.operations.is_empty();
-        self.is_whole(&so_far, if goes_on { End::Continued } else { End::Swap });
-        let reply = self.unless_failed(|renderer| renderer.execute_and_answer(&so_far, &request));
+    fn answer(&mut self, mut so_far: Frame, request: Request) -> Reply {
+        let reply = self.unless_failed(|renderer| renderer.answer_part(&mut so_far, &request));
         self.recycle_frame(so_far);
         reply.unwrap_or(Reply::Unavailable)
     }

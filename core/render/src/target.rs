@@ -102,21 +102,35 @@ impl Target {
     /// A target of another size with the same contents, their upper left corner in place; what is new is as in
     /// [`Target::new`].
     pub(crate) fn resized(&mut self, gpu: &Gpu, size: [u32; 2]) -> Result<Self, GpuError> {
-        let new = Self::new(gpu, size)?;
-        let extent = [size[0].min(self.size[0]), size[1].min(self.size[1])];
-        gpu.submit(|commands| {
-            let (read, write) = (base::Access::TRANSFER_READ, base::Access::TRANSFER_WRITE);
-            let last = |image, state| image_barrier(image, crate::graph::last_use(state), read);
-            commands.barriers(
-                &[base::memory_barrier(write, write)],
-                &[last(&self.color, self.color_state), last(&self.depth, self.depth_state)],
-            );
-            copy_corner(commands, &self.color, &new.color, extent);
-            copy_corner(commands, &self.depth, &new.depth, extent);
-        })?;
-        self.color_state = ResourceState::after(Access::TransferSrc);
-        self.depth_state = ResourceState::after(Access::TransferSrc);
+        let mut new = Self::new(gpu, size)?;
+        new.copy_from(gpu, self)?;
         Ok(new)
+    }
+
+    /// Takes over the contents of another target, their upper left corner in place.
+    pub(crate) fn copy_from(&mut self, gpu: &Gpu, other: &mut Self) -> Result<(), GpuError> {
+        let extent = [0, 1].map(|axis: usize| self.size[axis].min(other.size[axis]));
+        let (read, write) = (base::Access::TRANSFER_READ, base::Access::TRANSFER_WRITE);
+        let last = |image, state, next| image_barrier(image, crate::graph::last_use(state), next);
+        gpu.submit(|commands| {
+            commands.barriers(
+                &[],
+                &[
+                    last(&other.color, other.color_state, read),
+                    last(&other.depth, other.depth_state, read),
+                    last(&self.color, self.color_state, write),
+                    last(&self.depth, self.depth_state, write),
+                ],
+            );
+            copy_corner(commands, &other.color, &self.color, extent);
+            copy_corner(commands, &other.depth, &self.depth, extent);
+        })?;
+        for target in [(&mut *other, Access::TransferSrc), (self, Access::TransferDst)] {
+            let (target, access) = target;
+            target.color_state = ResourceState::after(access);
+            target.depth_state = ResourceState::after(access);
+        }
+        Ok(())
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a context emits: an ordered list of operations, and the tables that they point into.
 
+mod append;
 mod blocks;
 mod image;
 mod range;

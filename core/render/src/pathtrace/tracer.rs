@@ -13,6 +13,7 @@ use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
 use super::schedule::{ExposureUse, ViewResources};
 use super::world::WorldBuilder;
+use crate::parts::Parts;
 use crate::report::SceneReport;
 use crate::target::Target;
 
@@ -45,10 +46,10 @@ pub(crate) struct Tracer {
     pub(crate) history: Vec<History>,
     /// An earlier frame has found an exposure.
     pub(crate) has_exposure: bool,
-    /// The frame that is going on was handed over in parts: all of it is rasterized.
-    pub(crate) is_cut: bool,
-    /// That a frame was cut has been logged.
-    pub(crate) has_warned: bool,
+    /// What was handed over of the frame that is going on.
+    pub(crate) parts: Parts,
+    /// The window before that frame.
+    pub(crate) before: Option<Target>,
 }
 
 impl Tracer {
@@ -75,8 +76,8 @@ impl Tracer {
             buffers: None,
             history: Vec::new(),
             has_exposure: false,
-            is_cut: false,
-            has_warned: false,
+            parts: Parts::None,
+            before: None,
         }))
     }
 

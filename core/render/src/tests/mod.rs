@@ -3,6 +3,7 @@
 mod clears;
 mod fragments;
 mod lighting;
+mod pathtrace;
 mod pixels;
 mod primitives;
 mod replies;

@@ -4,9 +4,11 @@ mod compare;
 mod doctor;
 mod failure;
 mod inspect;
+mod libdir;
 mod options;
 mod output;
 mod replay;
+mod run;
 
 use std::process::ExitCode;
 
@@ -22,6 +24,8 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Run a program with its OpenGL path-traced.
+    Run(run::Arguments),
     /// Play a captured trace and write its pictures.
     Replay(replay::Arguments),
     /// Say what is in a trace.
@@ -30,6 +34,8 @@ enum Command {
     Compare(compare::Arguments),
     /// Say whether this machine can run Afterglow, and on what.
     Doctor(doctor::Arguments),
+    /// Print the folder that holds libGL.so.1, to be put first on LD_LIBRARY_PATH.
+    Libdir,
 }
 
 fn main() -> ExitCode {
@@ -40,10 +46,12 @@ fn main() -> ExitCode {
         .without_time()
         .init();
     let result = match arguments.command {
+        Command::Run(arguments) => run::run(&arguments),
         Command::Replay(arguments) => replay::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
+        Command::Libdir => libdir::run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

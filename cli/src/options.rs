@@ -15,6 +15,16 @@ pub enum Mode {
     Pathtrace,
 }
 
+impl Mode {
+    /// As it is written on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Mode::Raster => "raster",
+            Mode::Pathtrace => "pathtrace",
+        }
+    }
+}
+
 /// Which device, and how it is watched.
 #[derive(Debug, Args)]
 pub struct DeviceArguments {

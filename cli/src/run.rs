@@ -1,0 +1,95 @@
+//! `afterglow run`: starts a program with our libGL in place of the system's.
+
+use std::ffi::{OsStr, OsString};
+use std::os::unix::process::CommandExt;
+use std::path::Path;
+use std::process::Command;
+
+use afterglow_gpu::Gpu;
+use clap::Args;
+
+use crate::failure::Failure;
+use crate::libdir;
+use crate::options::{DeviceArguments, Mode};
+
+/// Arguments of `run`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    /// How frames become pictures
+    #[arg(long, value_enum, default_value = "pathtrace", env = "AFTERGLOW_MODE")]
+    mode: Mode,
+    /// Samples a pixel and frame (pathtrace)
+    #[arg(long, value_name = "N", default_value_t = 1, env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    spp: u32,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
+    seed: u32,
+    #[command(flatten)]
+    device: DeviceArguments,
+    /// The program and its arguments
+    #[arg(required = true, trailing_var_arg = true, allow_hyphen_values = true, value_name = "COMMAND")]
+    command: Vec<OsString>,
+}
+
+/// Runs `run`. Comes back only if the program could not be started: it takes this one's place, so that its exit code
+/// and its signals are its own.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let (program, rest) = arguments.command.split_first().expect("clap requires a command");
+    let mut command = Command::new(program);
+    command.args(rest);
+    match Gpu::new(&arguments.device.gpu_options()) {
+        Ok(gpu) => {
+            drop(gpu);
+            set_up(&mut command, arguments, &libdir::find()?);
+        }
+        Err(error) if error.is_no_device() => {
+            eprintln!("afterglow: {error}\nafterglow: starting the program with the system's OpenGL");
+        }
+        Err(error) => return Err(Failure::Device(error)),
+    }
+    let error = command.exec();
+    Err(Failure::Usage(format!("cannot start {}: {error}", program.to_string_lossy())))
+}
+
+/// The environment in which a program finds our library, however it looks for one.
+fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
+    let library = folder.join(libdir::NAMES[0]);
+    command
+        .env("LD_LIBRARY_PATH", before(folder, std::env::var_os("LD_LIBRARY_PATH").as_deref()))
+        // SDL 1.2 and SDL 2 open a library by name; in a Wayland session SDL would not use GLX.
+        .env("SDL_VIDEO_GL_DRIVER", &library)
+        .env("SDL_OPENGL_LIBRARY", &library)
+        .env("SDL_VIDEODRIVER", "x11")
+        .env("SDL_VIDEO_DRIVER", "x11")
+        .env("AFTERGLOW_MODE", arguments.mode.name())
+        .env("AFTERGLOW_SPP", arguments.spp.to_string())
+        .env("AFTERGLOW_SEED", arguments.seed.to_string());
+    if let Some(device) = &arguments.device.device {
+        command.env("AFTERGLOW_DEVICE", device);
+    }
+    if arguments.device.validation {
+        command.env("AFTERGLOW_VALIDATION", "1");
+    }
+}
+
+/// A list of folders with one more in front.
+fn before(folder: &Path, list: Option<&OsStr>) -> OsString {
+    let mut text = folder.as_os_str().to_owned();
+    if let Some(list) = list.filter(|list| !list.is_empty()) {
+        text.push(":");
+        text.push(list);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn our_folder_comes_first() {
+        assert_eq!(before(Path::new("/a"), None), "/a");
+        assert_eq!(before(Path::new("/a"), Some("".as_ref())), "/a");
+        assert_eq!(before(Path::new("/a"), Some("/b:/c".as_ref())), "/a:/b:/c");
+    }
+}

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI32, AtomicU64, Ordering};
+use std::time::Duration;
 
 use crate::message::Message;
 use crate::thread::Engine;
@@ -42,15 +43,17 @@ pub(crate) struct Queue {
     finished: parking_lot::Condvar,
 }
 
+/// How long to wait before looking whether the render thread is still there.
+const PATIENCE: Duration = Duration::from_millis(200);
 /// Frames of a drawable that wait or are being drawn, at most.
 const MOST_PENDING: u32 = 2;
 
 impl Queue {
-    /// Waits until there is room for a frame, and takes it.
-    pub(crate) fn enter(&self) {
+    /// Waits until there is room for a frame, and takes it. `is_served` says whether anybody still makes room.
+    pub(crate) fn enter(&self, is_served: impl Fn() -> bool) {
         let mut pending = self.pending.lock();
-        while *pending >= MOST_PENDING {
-            self.finished.wait(&mut pending);
+        while *pending >= MOST_PENDING && is_served() {
+            self.finished.wait_for(&mut pending, PATIENCE);
         }
         *pending += 1;
     }
@@ -110,4 +113,25 @@ impl Drop for Shared {
 
 fn packed((width, height): (u32, u32)) -> u64 {
     u64::from(width) << 32 | u64::from(height)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_queue_holds_two_and_does_not_wait_for_nobody() {
+        let queue = Queue::default();
+        queue.enter(|| true);
+        queue.enter(|| true);
+        // Nobody serves it any more: it is full, and lets go.
+        queue.enter(|| false);
+        std::thread::scope(|scope| {
+            let third = scope.spawn(|| queue.enter(|| true));
+            queue.leave();
+            queue.leave();
+            third.join().unwrap();
+        });
+        assert_eq!(*queue.pending.lock(), 2);
+    }
 }

@@ -1,6 +1,7 @@
 //! The thread that owns the device.
 
 use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
 
@@ -177,7 +178,21 @@ impl State {
     /// Handles messages until nobody can send any more.
     fn run(mut self, messages: &mpsc::Receiver<Message>) {
         while let Ok(message) = messages.recv() {
-            self.handle(message);
+            let (group, finished) = match &message {
+                Message::Frame { group, drawable, end, .. } => {
+                    (Some(*group), (*end == End::Swap).then(|| drawable.clone()))
+                }
+                Message::Ask { group, .. } => (Some(*group), None),
+                _ => (None, None),
+            };
+            if catch_unwind(AssertUnwindSafe(|| self.handle(message))).is_err() {
+                tracing::error!("a bug in Afterglow: a frame was dropped");
+                // Whatever state it is in, it is not to be trusted.
+                group.map(|group| self.renderers.remove(&group));
+            }
+            if let Some(drawable) = finished {
+                drawable.shared.queue.leave();
+            }
         }
     }
 
@@ -211,7 +226,6 @@ impl State {
         }
         if end == End::Swap {
             self.present(drawable);
-            drawable.shared.queue.leave();
         }
     }
 

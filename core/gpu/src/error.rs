@@ -47,6 +47,14 @@ impl GpuError {
         matches!(self, Self::NoVulkan(_) | Self::NoDevice(_))
     }
 
+    /// Whether there was not enough memory on the device.
+    pub fn is_out_of_memory(&self) -> bool {
+        matches!(
+            self,
+            Self::Memory { .. } | Self::Vulkan { result: vk::Result::ERROR_OUT_OF_DEVICE_MEMORY, .. }
+        )
+    }
+
     /// Whether the device was lost: nothing that was created from it works any more.
     pub fn is_device_lost(&self) -> bool {
         matches!(self, Self::Vulkan { result: vk::Result::ERROR_DEVICE_LOST, .. })

@@ -13,7 +13,7 @@ use crate::target::Target;
 pub(crate) struct Seat {
     target: Target,
     accumulator: Accumulator,
-    tracer: Option<Tracer>,
+    pub(crate) tracer: Option<Tracer>,
     swaps: u64,
 }
 

@@ -15,3 +15,10 @@ pub enum RenderError {
     #[error("the device has failed before")]
     Failed,
 }
+
+impl RenderError {
+    /// Whether the device would have served with more memory.
+    pub(crate) fn is_out_of_memory(&self) -> bool {
+        matches!(self, Self::Gpu(error) if error.is_out_of_memory())
+    }
+}

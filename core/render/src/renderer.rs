@@ -132,11 +132,7 @@ impl Renderer {
     /// If the device fails. One that cannot trace stays in [`Mode::Raster`].
     pub fn set_mode(&mut self, mode: Mode, options: &PathtraceOptions) -> Result<(), RenderError> {
         match (mode, &mut self.tracer) {
-            (Mode::Raster, _) => {
-                if let Some(buffers) = self.tracer.take().and_then(|tracer| tracer.buffers) {
-                    buffers.release(&self.table);
-                }
-            }
+            (Mode::Raster, _) => self.stop_tracing(),
             (Mode::Pathtrace, Some(tracer)) => tracer.options = options.clone(),
             (Mode::Pathtrace, None) => {
                 self.tracer = Tracer::new(&self.gpu, &self.table, options.clone())?;
@@ -244,6 +240,14 @@ impl Renderer {
         self.recycle_frame(frame);
     }
 
+    /// Gives back all that path tracing has on the device.
+    fn stop_tracing(&mut self) {
+        let waiting = self.seats.values_mut().filter_map(|seat| seat.tracer.take());
+        for buffers in waiting.chain(self.tracer.take()).filter_map(|tracer| tracer.buffers) {
+            buffers.release(&self.table);
+        }
+    }
+
     fn recycle_frame(&mut self, mut frame: Frame) {
         if self.recycled.len() < RECYCLED_FRAMES {
             frame.clear();
@@ -258,6 +262,11 @@ impl Renderer {
         }
         match work(self) {
             Ok(value) => Some(value),
+            Err(error) if self.tracer.is_some() && error.is_out_of_memory() => {
+                tracing::error!("path tracing is off, frames are rasterized: {error}");
+                self.stop_tracing();
+                None
+            }
             Err(error) => {
                 tracing::error!("the renderer gives up: {error}");
                 self.has_failed = true;

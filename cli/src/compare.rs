@@ -1,11 +1,13 @@
 //! `afterglow compare`: how far apart two pictures are.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use afterglow_metrics::{Comparison, Image, compare, io, side_by_side};
 use clap::Args;
 
 use crate::failure::Failure;
+use crate::options::number;
 use crate::output;
 
 /// Arguments of `compare`.
@@ -22,10 +24,10 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     side_by_side: Option<PathBuf>,
     /// Fail (exit code 1) if the mean FLIP error is greater
-    #[arg(long, value_name = "ERROR")]
+    #[arg(long, value_name = "ERROR", value_parser = number)]
     max_flip: Option<f64>,
     /// Fail (exit code 1) if SSIM is less
-    #[arg(long, value_name = "SSIM")]
+    #[arg(long, value_name = "SSIM", value_parser = number)]
     min_ssim: Option<f64>,
     /// Also write the figures as JSON (`-`: to standard output)
     #[arg(long, value_name = "FILE")]
@@ -44,7 +46,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .map_err(|error| Failure::input(&arguments.picture, error))?;
     match &arguments.json {
         Some(path) => output::write_json(path, &comparison)?,
-        None => print(&comparison),
+        None => output::print(|out| write(&comparison, out))?,
     }
     judge(arguments, &comparison)
 }
@@ -53,27 +55,29 @@ fn load(path: impl AsRef<Path>) -> Result<Image, Failure> {
     io::load(path.as_ref()).map_err(|error| Failure::input(path.as_ref(), error))
 }
 
-fn print(comparison: &Comparison) {
-    let line = |name: &str, value: Option<f64>| match value {
-        Some(value) => println!("{name:<16} {value:.6}"),
-        None => println!("{name:<16} -"),
+fn write(comparison: &Comparison, out: &mut impl Write) -> std::io::Result<()> {
+    let mut line = |name: &str, value: Option<f64>| match value {
+        Some(value) => writeln!(out, "{name:<16} {value:.6}"),
+        None => writeln!(out, "{name:<16} -"),
     };
-    line("relMSE", comparison.relmse);
-    line("RMSE", comparison.rmse);
-    line("PSNR", comparison.psnr);
-    line("SSIM", comparison.ssim);
-    line("FLIP", Some(comparison.flip));
-    line("luminance ratio", comparison.luminance_ratio);
+    line("relMSE", comparison.relmse)?;
+    line("RMSE", comparison.rmse)?;
+    line("PSNR", comparison.psnr)?;
+    line("SSIM", comparison.ssim)?;
+    line("FLIP", Some(comparison.flip))?;
+    line("luminance ratio", comparison.luminance_ratio)?;
     if comparison.blocks_beyond_4.is_some() {
-        line("blocks beyond 4", comparison.blocks_beyond_4);
-        line("blocks beyond 6", comparison.blocks_beyond_6);
+        line("blocks beyond 4", comparison.blocks_beyond_4)?;
+        line("blocks beyond 6", comparison.blocks_beyond_6)?;
     }
     if !comparison.all_finite() {
-        println!(
+        writeln!(
+            out,
             "pixels that are no numbers: {} and {}",
             comparison.non_finite, comparison.non_finite_reference
-        );
+        )?;
     }
+    Ok(())
 }
 
 fn judge(arguments: &Arguments, comparison: &Comparison) -> Result<(), Failure> {

@@ -1,5 +1,6 @@
 //! `afterglow doctor`: whether this machine can run Afterglow, and on what.
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use afterglow_gpu::doctor::{DoctorReport, examine};
@@ -25,7 +26,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let report = examine(&options);
     match &arguments.json {
         Some(path) => output::write_json(path, &report)?,
-        None => print(&report),
+        None => output::print(|out| write(&report, out))?,
     }
     if report.chosen.is_some() {
         return Ok(());
@@ -34,29 +35,30 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     afterglow_gpu::Gpu::new(&options).map(drop).map_err(Failure::Device)
 }
 
-fn print(report: &DoctorReport) {
+fn write(report: &DoctorReport, out: &mut impl Write) -> io::Result<()> {
     let yes = |there: bool| if there { "yes" } else { "no" };
-    println!("Vulkan loader      {}", report.loader_version.as_deref().unwrap_or("none"));
-    println!("validation layer   {}", yes(report.validation_layer));
+    writeln!(out, "Vulkan loader      {}", report.loader_version.as_deref().unwrap_or("none"))?;
+    writeln!(out, "validation layer   {}", yes(report.validation_layer))?;
     match (&report.private_lavapipe.library, report.private_lavapipe.advice) {
-        (Some(library), _) => println!("private lavapipe   {}", library.display()),
-        (None, advice) => println!("private lavapipe   none; {}", advice.unwrap_or("run ./x setup")),
+        (Some(library), _) => writeln!(out, "private lavapipe   {}", library.display())?,
+        (None, advice) => writeln!(out, "private lavapipe   none; {}", advice.unwrap_or("run ./x setup"))?,
     }
     for device in &report.devices {
         let info = &device.info;
-        println!("\n{} ({:?}, {}, Vulkan {})", info.name, info.kind, info.driver, info.api_version);
+        writeln!(out, "\n{} ({:?}, {}, Vulkan {})", info.name, info.kind, info.driver, info.api_version)?;
         if info.refused.is_empty() {
-            println!("  usable");
+            writeln!(out, "  usable")?;
         }
         for reason in &info.refused {
-            println!("  not usable: {reason}");
+            writeln!(out, "  not usable: {reason}")?;
         }
         if !device.ray_tracing.is_empty() {
-            println!("  ray tracing: {}", device.ray_tracing.join(", "));
+            writeln!(out, "  ray tracing: {}", device.ray_tracing.join(", "))?;
         }
     }
     match &report.chosen {
-        Some(choice) => println!("\nAfterglow uses {}: {}", choice.device, choice.why),
-        None => println!("\nno usable device"),
+        Some(choice) => writeln!(out, "\nAfterglow uses {}: {}", choice.device, choice.why)?,
+        None => writeln!(out, "\nno usable device")?,
     }
+    Ok(())
 }

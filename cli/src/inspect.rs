@@ -78,13 +78,21 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         *summary.functions.entry(name).or_default() += count;
     }
     if !arguments.calls && arguments.json.is_none() {
-        let _ = print(&mut out, &summary);
+        drop(out);
+        output::print(|out| print(out, &summary))?;
+    } else {
+        drop(out);
     }
-    drop(out);
     if let Some(path) = &arguments.json {
         output::write_json(path, &summary)?;
     }
     end?;
+    if summary.calls == 0 && arguments.frames.is_some() {
+        return Err(Failure::Usage(format!(
+            "the trace has {} frames, none of those asked for",
+            summary.frames
+        )));
+    }
     crate::failure::trace_end(path, reader.end())
 }
 

@@ -67,6 +67,17 @@ impl FromStr for Frames {
     }
 }
 
+/// A number, and not one of those that compare with nothing.
+pub fn number(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if !number.is_nan() => Ok(number),
+        _ => Err(format!("'{text}' is no number")),
+    }
+}
+
+/// Pixels of a picture, at most.
+const MOST_PIXELS: u64 = afterglow_metrics::MAX_PIXELS as u64;
+
 /// `WxH` in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Size(pub u32, pub u32);
@@ -80,7 +91,11 @@ impl FromStr for Size {
             Ok(side @ 1..=16384) => Ok(side),
             _ => Err(format!("'{text}' is no side between 1 and 16384 pixels")),
         };
-        Ok(Size(side(width)?, side(height)?))
+        let (width, height) = (side(width)?, side(height)?);
+        match u64::from(width) * u64::from(height) {
+            ..=MOST_PIXELS => Ok(Size(width, height)),
+            _ => Err(format!("'{text}' has more than {MOST_PIXELS} pixels")),
+        }
     }
 }
 
@@ -97,5 +112,7 @@ mod tests {
         assert_eq!("320x240".parse(), Ok(Size(320, 240)));
         assert!("0x240".parse::<Size>().is_err());
         assert!("99999x2".parse::<Size>().is_err());
+        assert!("16384x16384".parse::<Size>().is_err());
+        assert!(number("nan").is_err() && number("x").is_err());
     }
 }

@@ -3,7 +3,7 @@
 mod report;
 mod session;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use afterglow_player::{Player, TraceSummary};
@@ -184,8 +184,12 @@ fn conclude(
     session: &Session,
     report: &Report,
 ) -> Result<(), Failure> {
-    if arguments.stats {
-        report.print();
+    // Figures as JSON on standard output are to be read by a program.
+    if arguments.json.as_deref() != Some(Path::new("-")) {
+        output::print(|out| {
+            report.write_summary(out)?;
+            if arguments.stats { report.write_details(out) } else { Ok(()) }
+        })?;
     }
     if let Some(path) = &arguments.json {
         output::write_json(path, report)?;

@@ -1,6 +1,7 @@
 //! What a replay measured, for people and as JSON.
 
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 use std::time::Duration;
 
 use afterglow_gpu::DeviceInfo;
@@ -156,33 +157,39 @@ impl Report {
         }
     }
 
-    /// Prints the figures.
-    pub fn print(&self) {
-        println!(
+    /// Writes how many frames there were, and how fast.
+    pub fn write_summary(&self, out: &mut impl Write) -> io::Result<()> {
+        writeln!(
+            out,
             "{} frames in {:.2} s: {:.2} a second on {}; checksum {}",
             self.frames.len(),
             self.seconds,
             self.frames_per_second,
             self.device.name,
             self.checksum
-        );
-        self.print_passes();
+        )
+    }
+
+    /// Writes what passes and calls took.
+    pub fn write_details(&self, out: &mut impl Write) -> io::Result<()> {
+        self.write_passes(out)?;
         let groups = [
             ("unsupported", &self.calls.unsupported),
             ("malformed", &self.calls.malformed),
             ("without a context", &self.calls.without_context),
             ("GL errors", &self.calls.gl_errors),
         ];
-        println!("{} calls", self.calls.total);
+        writeln!(out, "{} calls", self.calls.total)?;
         for (name, counts) in groups.iter().filter(|(_, counts)| !counts.is_empty()) {
             let list: Vec<_> = counts.iter().map(|(function, n)| format!("{function} x{n}")).collect();
-            println!("  {name}: {}", list.join(", "));
+            writeln!(out, "  {name}: {}", list.join(", "))?;
         }
+        Ok(())
     }
 
     /// Mean time of each pass, in the order of the last frame.
-    fn print_passes(&self) {
-        let Some(last) = self.frames.last() else { return };
+    fn write_passes(&self, out: &mut impl Write) -> io::Result<()> {
+        let Some(last) = self.frames.last() else { return Ok(()) };
         let mut names: Vec<&str> = Vec::new();
         for pass in &last.passes {
             if !names.contains(&pass.name.as_str()) {
@@ -192,8 +199,9 @@ impl Report {
         for name in names {
             let passes = self.frames.iter().flat_map(|frame| &frame.passes);
             let ms: f64 = passes.filter(|pass| pass.name == name).map(|pass| pass.ms).sum();
-            println!("  {:>9.3} ms  {name}", ms / self.frames.len() as f64);
+            writeln!(out, "  {:>9.3} ms  {name}", ms / self.frames.len() as f64)?;
         }
+        Ok(())
     }
 }
 

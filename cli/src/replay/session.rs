@@ -32,7 +32,9 @@ impl FromStr for Move {
         let parse = || {
             let (index, offset) = text.split_once(':')?;
             let offset: Vec<f32> = offset.split(',').map(|v| v.parse().ok()).collect::<Option<_>>()?;
-            Some(Move { index: index.parse().ok()?, offset: offset.try_into().ok()? })
+            let offset: [f32; 3] = offset.try_into().ok()?;
+            let is_finite = offset.iter().all(|along| along.is_finite());
+            is_finite.then_some(Move { index: index.parse().ok()?, offset })
         };
         parse().ok_or_else(|| format!("'{text}' is not INDEX:X,Y,Z"))
     }

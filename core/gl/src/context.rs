@@ -46,6 +46,8 @@ pub struct Context {
     pub(crate) immediate: Immediate,
     pub(crate) list: Option<Box<ListBuilder>>,
     pub(crate) list_depth: u32,
+    /// Lists that the command at hand may still execute.
+    pub(crate) lists_left: u32,
     pub(crate) queries: ActiveQuery,
     pub(crate) mode: RenderMode,
     pub(crate) ranges: RangeCache,
@@ -80,6 +82,7 @@ impl Context {
             immediate: Immediate::default(),
             list: None,
             list_depth: 0,
+            lists_left: 0,
             queries: ActiveQuery::default(),
             mode: RenderMode::default(),
             ranges: RangeCache::default(),

@@ -10,6 +10,8 @@ pub const TEXTURE_STACK: usize = 10;
 pub const ATTRIB_STACK: usize = 16;
 /// GL_MAX_LIST_NESTING.
 pub const LIST_NESTING: u32 = 64;
+/// Lists that one glCallList may execute, those that lists call included.
+pub const LIST_EXECUTIONS: u32 = 1 << 18;
 /// GL_MAX_NAME_STACK_DEPTH.
 pub const NAME_STACK: usize = 64;
 /// GL_MAX_VIEWPORT_DIMS.

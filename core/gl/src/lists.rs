@@ -235,6 +235,7 @@ impl Context {
                 return;
             }
         }
+        self.lists_left = limits::LIST_EXECUTIONS;
         self.run_list(name);
     }
 
@@ -246,6 +247,7 @@ impl Context {
                 return;
             }
         }
+        self.lists_left = limits::LIST_EXECUTIONS.max(offsets.len() as u32);
         self.run_lists(offsets);
     }
 
@@ -259,6 +261,11 @@ impl Context {
         if self.list_depth >= limits::LIST_NESTING {
             return;
         }
+        // Lists that call others several times can grow beyond all bounds without being deep.
+        let Some(left) = self.lists_left.checked_sub(1) else {
+            return self.record_error(GL_OUT_OF_MEMORY);
+        };
+        self.lists_left = left;
         let Some(list) = self.shared.lock().lists.get(&name).cloned() else { return };
         // What is executed is not compiled again into a list that is open.
         let open = self.list.take();

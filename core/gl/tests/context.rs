@@ -358,3 +358,22 @@ fn a_read_back_hands_over_what_was_drawn_before() {
         [(1, End::Continued), (1, End::Swap)]
     );
 }
+
+#[test]
+fn lists_that_grow_beyond_all_bounds_end() {
+    let mut gl = Context::new(Box::new(afterglow_gl::backend::NullBackend), Default::default());
+    gl.set_drawable(8, 8);
+    for list in 1..=40 {
+        gl.new_list(list, GL_COMPILE);
+        gl.color([1.0; 4]);
+        if list > 1 {
+            gl.call_list(list - 1);
+            gl.call_list(list - 1);
+        }
+        gl.end_list();
+    }
+    gl.call_list(40);
+    assert_eq!(gl.get_error(), GL_OUT_OF_MEMORY);
+    gl.call_list(10);
+    assert_eq!(gl.get_error(), GL_NO_ERROR);
+}

@@ -11,7 +11,7 @@ use crate::image::{MAX_PIXELS, MAX_SIDE};
 pub enum MetricsError {
     #[error("cannot read {}: {source}", path.display())]
     Load { path: PathBuf, source: FormatError },
-    #[error("cannot write {}: {source}", path.display())]
+    #[error("cannot be written: {source}")]
     Save { path: PathBuf, source: FormatError },
     #[error("{what} is {got_width}x{got_height} pixels, not {width}x{height}")]
     SizeMismatch { what: &'static str, width: usize, height: usize, got_width: usize, got_height: usize },

@@ -10,7 +10,7 @@ use crate::format::NEWEST_VERSION;
 #[derive(Debug, thiserror::Error)]
 pub enum TraceError {
     /// The file could not be opened.
-    #[error("cannot open {}: {source}", path.display())]
+    #[error("cannot be opened: {source}")]
     Open { path: PathBuf, source: io::Error },
     /// The file could not be read further.
     #[error("cannot read the trace: {0}")]

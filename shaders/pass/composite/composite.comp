@@ -36,13 +36,18 @@ vec3 kind_color(uint kind) {
     return colors[min(kind, 4u)];
 }
 
+// Light has no upper bound; so that none is cut off, 1 is shown half as bright as the brightest there can be.
+vec3 compressed(vec3 light) {
+    return srgb_from_linear(light / (1.0 + luminance(light)));
+}
+
 vec3 painted(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indirect) {
     switch (view.paint) {
         case PAINT_KIND: return kind_color(surface_kind(surface)) * (0.3 + 0.7 * abs(unpack_unit_vector(surface.normal).z));
         case PAINT_NORMAL: return unpack_unit_vector(surface.normal) * 0.5 + 0.5;
         case PAINT_ALBEDO: return unpack_color(surface.albedo);
-        case PAINT_DIRECT: return srgb_from_linear(light.direct);
-        default: return srgb_from_linear(indirect);
+        case PAINT_DIRECT: return compressed(light.direct);
+        default: return compressed(indirect);
     }
 }
 

@@ -339,15 +339,14 @@ impl Context {
         self.state.polygon_stipple
     }
 
-    /// glGetClipPlane, in eye coordinates.
-    pub fn get_clip_plane(&mut self, plane: u32) -> [f64; 4] {
-        match self.state.transform.clip_planes.get(plane.wrapping_sub(GL_CLIP_PLANE0) as usize) {
-            Some(plane) => *plane,
-            None => {
-                self.record_error(GL_INVALID_ENUM);
-                [0.0; 4]
-            }
+    /// glGetClipPlane, in eye coordinates; `None` after an error.
+    pub fn get_clip_plane(&mut self, plane: u32) -> Option<[f64; 4]> {
+        let planes = &self.state.transform.clip_planes;
+        let equation = planes.get(plane.wrapping_sub(GL_CLIP_PLANE0) as usize).copied();
+        if equation.is_none() {
+            self.record_error(GL_INVALID_ENUM);
         }
+        equation
     }
 
     /// glGetString.

@@ -21,3 +21,5 @@ mod number;
 pub mod proc_address;
 mod special;
 pub mod stub;
+#[cfg(test)]
+mod tests;

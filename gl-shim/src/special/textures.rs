@@ -42,12 +42,6 @@ unsafe fn tex_sub_image(
     gl.tex_sub_image(target, part, pixels, data.unwrap_or_default());
 }
 
-/// So many bytes; a negative number is an error of which the context tells, as the image then has too few.
-unsafe fn counted<'a>(data: *const c_void, count: i32) -> &'a [u8] {
-    // SAFETY: the program has so many bytes there.
-    unsafe { memory::bytes(data, usize::try_from(count).unwrap_or(0)) }
-}
-
 pub unsafe fn get_tex_image(
     gl: &mut Context,
     target: u32,
@@ -96,64 +90,6 @@ pub unsafe fn tex_sub_image_1d(
 }
 
 #[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub unsafe fn compressed_tex_image_1d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    internal_format: u32,
-    width: i32,
-    border: i32,
-    bytes: i32,
-    data: *const c_void,
-) {
-    let definition = ImageDefinition { level, internal_format, size: [width, 1, 1], border };
-    // SAFETY: the contract is the same.
-    gl.compressed_tex_image((target, 1), definition, unsafe { counted(data, bytes) });
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub unsafe fn compressed_tex_sub_image_1d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    x_offset: i32,
-    width: i32,
-    format: u32,
-    bytes: i32,
-    data: *const c_void,
-) {
-    let part = SubImage { level, offset: [x_offset, 0, 0], size: [width, 1, 1] };
-    // SAFETY: the contract is the same.
-    gl.compressed_tex_sub_image((target, 1), part, format, unsafe { counted(data, bytes) });
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub fn copy_tex_image_1d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    internal_format: u32,
-    x: i32,
-    y: i32,
-    width: i32,
-    border: i32,
-) {
-    gl.copy_tex_image(target, level, internal_format, x, y, width, None, border);
-}
-
-pub fn copy_tex_sub_image_1d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    x_offset: i32,
-    x: i32,
-    y: i32,
-    width: i32,
-) {
-    gl.copy_tex_sub_image(target, level, [x_offset, 0, 0], x, y, width, 1);
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
 pub unsafe fn tex_image_2d(
     gl: &mut Context,
     target: u32,
@@ -188,71 +124,6 @@ pub unsafe fn tex_sub_image_2d(
     let part = SubImage { level, offset: [x_offset, y_offset, 0], size: [width, height, 1] };
     // SAFETY: the contract is the same.
     unsafe { tex_sub_image(gl, (target, 2), part, (format, kind), pixels) };
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub unsafe fn compressed_tex_image_2d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    internal_format: u32,
-    width: i32,
-    height: i32,
-    border: i32,
-    bytes: i32,
-    data: *const c_void,
-) {
-    let definition = ImageDefinition { level, internal_format, size: [width, height, 1], border };
-    // SAFETY: the contract is the same.
-    gl.compressed_tex_image((target, 2), definition, unsafe { counted(data, bytes) });
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub unsafe fn compressed_tex_sub_image_2d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    x_offset: i32,
-    y_offset: i32,
-    width: i32,
-    height: i32,
-    format: u32,
-    bytes: i32,
-    data: *const c_void,
-) {
-    let part = SubImage { level, offset: [x_offset, y_offset, 0], size: [width, height, 1] };
-    // SAFETY: the contract is the same.
-    gl.compressed_tex_sub_image((target, 2), part, format, unsafe { counted(data, bytes) });
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub fn copy_tex_image_2d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    internal_format: u32,
-    x: i32,
-    y: i32,
-    width: i32,
-    height: i32,
-    border: i32,
-) {
-    gl.copy_tex_image(target, level, internal_format, x, y, width, Some(height), border);
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub fn copy_tex_sub_image_2d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    x_offset: i32,
-    y_offset: i32,
-    x: i32,
-    y: i32,
-    width: i32,
-    height: i32,
-) {
-    gl.copy_tex_sub_image(target, level, [x_offset, y_offset, 0], x, y, width, height);
 }
 
 #[expect(clippy::too_many_arguments, reason = "the command has them")]
@@ -297,58 +168,4 @@ pub unsafe fn tex_sub_image_3d(
     let part = SubImage { level, offset: [x_offset, y_offset, z_offset], size: [width, height, depth] };
     // SAFETY: the contract is the same.
     unsafe { tex_sub_image(gl, (target, 3), part, (format, kind), pixels) };
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub unsafe fn compressed_tex_image_3d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    internal_format: u32,
-    width: i32,
-    height: i32,
-    depth: i32,
-    border: i32,
-    bytes: i32,
-    data: *const c_void,
-) {
-    let definition = ImageDefinition { level, internal_format, size: [width, height, depth], border };
-    // SAFETY: the contract is the same.
-    gl.compressed_tex_image((target, 3), definition, unsafe { counted(data, bytes) });
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub unsafe fn compressed_tex_sub_image_3d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    x_offset: i32,
-    y_offset: i32,
-    z_offset: i32,
-    width: i32,
-    height: i32,
-    depth: i32,
-    format: u32,
-    bytes: i32,
-    data: *const c_void,
-) {
-    let part = SubImage { level, offset: [x_offset, y_offset, z_offset], size: [width, height, depth] };
-    // SAFETY: the contract is the same.
-    gl.compressed_tex_sub_image((target, 3), part, format, unsafe { counted(data, bytes) });
-}
-
-#[expect(clippy::too_many_arguments, reason = "the command has them")]
-pub fn copy_tex_sub_image_3d(
-    gl: &mut Context,
-    target: u32,
-    level: i32,
-    x_offset: i32,
-    y_offset: i32,
-    z_offset: i32,
-    x: i32,
-    y: i32,
-    width: i32,
-    height: i32,
-) {
-    gl.copy_tex_sub_image(target, level, [x_offset, y_offset, z_offset], x, y, width, height);
 }

@@ -182,6 +182,32 @@ fn arrays_are_kept_as_addresses() {
 }
 
 #[test]
+fn pixels_and_lists_read_the_programs_memory() {
+    with_current(|| {
+        let (mut pixels, mut stipple, mut listed) = ([7u8; 8], [0u8; 128], 0);
+        // SAFETY: images are as large as is said.
+        unsafe {
+            glReadPixels(0, 0, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixels.as_mut_ptr().cast());
+            glReadPixels(0, 0, -2, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixels.as_mut_ptr().cast());
+            assert_eq!(error(), GL_INVALID_VALUE);
+            glPolygonStipple([0xa5u8; 128].as_ptr());
+            glGetPolygonStipple(stipple.as_mut_ptr());
+            assert_eq!(stipple, [0xa5; 128]);
+            let list = glGenLists(2);
+            glNewList(list + 1, GL_COMPILE);
+            glBitmap(8, 1, 0.0, 0.0, 5.0, 0.0, [0xffu8].as_ptr());
+            glDrawPixels(1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixels.as_ptr().cast());
+            glFogf(GL_FOG_DENSITY, 3.0);
+            glEndList();
+            glListBase(list);
+            glCallLists(1, GL_UNSIGNED_BYTE, [1u8].as_ptr().cast());
+            glGetIntegerv(GL_FOG_DENSITY, &mut listed);
+        }
+        assert_eq!((listed, error()), (3, GL_NO_ERROR));
+    });
+}
+
+#[test]
 fn attributes_reach_the_context_in_all_types() {
     with_current(|| {
         let mut color = [0.0; 4];

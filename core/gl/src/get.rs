@@ -5,6 +5,7 @@ use afterglow_api::constants::*;
 use crate::context::Context;
 use crate::frame::{CLIP_PLANES, LIGHTS, SLOTS, Slot, TEXTURE_UNITS};
 use crate::limits;
+use crate::pixel::{Extent, PixelLayout, PixelTarget, PixelTransfer, pack_stencil};
 use crate::state::HINTS;
 
 /// A state value, before it is converted to what was asked for.
@@ -337,6 +338,16 @@ impl Context {
     /// glGetPolygonStipple.
     pub fn get_polygon_stipple(&mut self) -> [u8; 128] {
         self.state.polygon_stipple
+    }
+
+    /// glGetPolygonStipple into the program's memory, to lie there as glPixelStore says.
+    pub fn get_polygon_stipple_image(&mut self, data: &mut [u8]) {
+        let bits: Vec<u8> = (0..1024).map(|i| self.state.polygon_stipple[i / 8] >> (7 - i % 8) & 1).collect();
+        let packing = self.stacks.pixel_store.pack;
+        let result = PixelLayout::from_gl(GL_STENCIL_INDEX, GL_BITMAP)
+            .and_then(|layout| PixelTarget::new(data, layout, &packing, Extent::plane(32, 32)))
+            .and_then(|target| pack_stencil(&bits, &PixelTransfer::default(), target));
+        self.check(result);
     }
 
     /// glGetClipPlane, in eye coordinates; `None` after an error.

@@ -53,6 +53,11 @@ fn a_stipple_lies_in_memory_as_pixel_store_says() {
     context.polygon_stipple_image(&image);
     let pattern = context.get_polygon_stipple();
     assert_eq!((pattern[0], pattern[4], pattern[8]), (0x80, 0x01, 0));
+    let mut written = [0; 256];
+    context.pixel_store(GL_PACK_LSB_FIRST, 1.0);
+    context.pixel_store(GL_PACK_ALIGNMENT, 8.0);
+    context.get_polygon_stipple_image(&mut written);
+    assert_eq!(written, image);
     context.polygon_stipple_image(&image[..128]);
     assert_eq!(context.get_error(), GL_INVALID_OPERATION);
 }

@@ -60,6 +60,12 @@ pub unsafe fn polygon_stipple(gl: &mut Context, mask: *const u8) {
     }
 }
 
+pub unsafe fn get_polygon_stipple(gl: &mut Context, mask: *mut u8) {
+    let size = gl.pixel_image_size(Extent::plane(32, 32), GL_COLOR_INDEX, GL_BITMAP, true);
+    // SAFETY: the program has room for such an image there.
+    gl.get_polygon_stipple_image(unsafe { memory::bytes_mut(mask.cast(), size.unwrap_or(0)) });
+}
+
 #[expect(clippy::too_many_arguments, reason = "the command has them")]
 pub unsafe fn read_pixels(
     gl: &mut Context,

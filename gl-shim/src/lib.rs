@@ -12,5 +12,14 @@
 
 pub mod boundary;
 pub mod current;
+mod export;
+mod generated;
 #[cfg(target_os = "linux")]
 pub mod glx;
+mod memory;
+mod number;
+pub mod proc_address;
+mod special;
+pub mod stub;
+#[cfg(test)]
+mod tests;

@@ -4,6 +4,8 @@
 //! the generator twice changes nothing.
 
 mod api;
+mod calls;
+mod exports;
 #[cfg(feature = "glsl")]
 mod glsl;
 pub mod model;
@@ -30,6 +32,8 @@ pub fn outputs(root: impl AsRef<Path>) -> Result<Vec<Output>, ModelError> {
         Output::new("core/api/src/generated/ids.rs", api::ids(&model, &rules)),
         Output::new("core/api/src/generated/enum_names.rs", api::enum_names(&model, &rules)),
         Output::new("core/player/src/generated/dispatch.rs", player::dispatch(&model, &rules)?),
+        Output::new("gl-shim/src/generated/exports.rs", exports::exports(&model, &rules)?),
+        Output::new("gl-shim/src/generated/proc_table.rs", exports::proc_table(&model)),
     ];
     outputs.extend(shader_outputs());
     Ok(outputs)

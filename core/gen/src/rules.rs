@@ -18,6 +18,8 @@ pub struct Rules {
     libgl: LibGl,
     /// How calls reach the context.
     pub play: Play,
+    /// What is different for entry points.
+    pub export: Export,
 }
 
 #[derive(Debug, Deserialize)]
@@ -62,6 +64,24 @@ impl Play {
         let maps = [&self.special, &self.dropped, &self.methods];
         let names = sets.into_iter().flatten().chain(maps.into_iter().flat_map(BTreeMap::keys));
         names.map(String::as_str).find(|name| !known.contains(name))
+    }
+}
+
+/// Where the entry points differ from a trace's calls.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Export {
+    /// Commands with hand-written functions, besides those of [`Play::special`].
+    pub special: BTreeSet<String>,
+    /// Methods that cannot panic.
+    pub plainly: BTreeSet<String>,
+}
+
+impl Export {
+    /// A name in the manifest that is none of the commands.
+    pub fn unknown_name(&self, commands: &[&Command]) -> Option<&str> {
+        let known: BTreeSet<&str> = commands.iter().map(|command| command.name.as_str()).collect();
+        self.special.iter().map(String::as_str).find(|name| !known.contains(name))
     }
 }
 

@@ -186,11 +186,11 @@ impl Context {
         true
     }
 
-    /// glGetBufferParameter.
-    pub fn get_buffer_parameter(&mut self, target: u32, pname: u32) -> i32 {
-        let Some(buffer) = self.bound_buffer(target) else { return 0 };
+    /// glGetBufferParameter; `None` after an error.
+    pub fn get_buffer_parameter(&mut self, target: u32, pname: u32) -> Option<i32> {
+        let buffer = self.bound_buffer(target)?;
         let buffer = buffer.lock();
-        match pname {
+        Some(match pname {
             GL_BUFFER_SIZE => buffer.data.len() as i32,
             GL_BUFFER_USAGE => buffer.usage as i32,
             GL_BUFFER_ACCESS => buffer.access as i32,
@@ -198,8 +198,20 @@ impl Context {
             _ => {
                 drop(buffer);
                 self.record_error(GL_INVALID_ENUM);
-                0
+                return None;
             }
+        })
+    }
+
+    /// glGetBufferPointer: the address of a mapped buffer's bytes, 0 if it is not mapped; `None` after an error. The
+    /// bytes stay there until the buffer is unmapped, deleted or given other data.
+    pub fn get_buffer_pointer(&mut self, target: u32, pname: u32) -> Option<usize> {
+        if pname != GL_BUFFER_MAP_POINTER {
+            self.record_error(GL_INVALID_ENUM);
+            return None;
         }
+        let buffer = self.bound_buffer(target)?;
+        let mut buffer = buffer.lock();
+        Some(if buffer.mapped { buffer.data.as_mut_ptr() as usize } else { 0 })
     }
 }

@@ -7,6 +7,7 @@ use crate::context::Context;
 use crate::emit::Dirty;
 use crate::frame::{self, CLIP_PLANES, Operation, Rect};
 use crate::limits;
+use crate::pixel::{Extent, PixelLayout, PixelSource, unpack_mask};
 use crate::pixels::RenderMode;
 use crate::state::{Cap, HINTS};
 
@@ -267,6 +268,23 @@ impl Context {
     /// glPolygonStipple, the pattern as it is in memory under the default pixel store.
     pub fn polygon_stipple(&mut self, pattern: &[u8]) {
         self.polygon_stipple_pattern(pattern.into());
+    }
+
+    /// glPolygonStipple of a bitmap in the program's memory, which lies there as glPixelStore says.
+    pub fn polygon_stipple_image(&mut self, data: &[u8]) {
+        let packing = self.stacks.pixel_store.unpack;
+        let bits = PixelLayout::from_gl(GL_COLOR_INDEX, GL_BITMAP)
+            .and_then(|layout| PixelSource::new(data, layout, &packing, Extent::plane(32, 32)))
+            .and_then(|source| unpack_mask(&source));
+        match bits {
+            Ok(bits) => {
+                let bytes = bits.as_chunks::<8>().0.iter();
+                let pattern: Vec<u8> =
+                    bytes.map(|bits| bits.iter().fold(0, |byte, bit| byte << 1 | bit)).collect();
+                self.polygon_stipple(&pattern);
+            }
+            Err(error) => self.record_error(error),
+        }
     }
 
     pub(crate) fn exec_polygon_stipple(&mut self, pattern: std::sync::Arc<[u8]>) {

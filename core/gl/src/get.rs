@@ -5,6 +5,7 @@ use afterglow_api::constants::*;
 use crate::context::Context;
 use crate::frame::{CLIP_PLANES, LIGHTS, SLOTS, Slot, TEXTURE_UNITS};
 use crate::limits;
+use crate::pixel::{Extent, PixelLayout, PixelTarget, PixelTransfer, pack_stencil};
 use crate::state::HINTS;
 
 /// A state value, before it is converted to what was asked for.
@@ -339,15 +340,24 @@ impl Context {
         self.state.polygon_stipple
     }
 
-    /// glGetClipPlane, in eye coordinates.
-    pub fn get_clip_plane(&mut self, plane: u32) -> [f64; 4] {
-        match self.state.transform.clip_planes.get(plane.wrapping_sub(GL_CLIP_PLANE0) as usize) {
-            Some(plane) => *plane,
-            None => {
-                self.record_error(GL_INVALID_ENUM);
-                [0.0; 4]
-            }
+    /// glGetPolygonStipple into the program's memory, to lie there as glPixelStore says.
+    pub fn get_polygon_stipple_image(&mut self, data: &mut [u8]) {
+        let bits: Vec<u8> = (0..1024).map(|i| self.state.polygon_stipple[i / 8] >> (7 - i % 8) & 1).collect();
+        let packing = self.stacks.pixel_store.pack;
+        let result = PixelLayout::from_gl(GL_STENCIL_INDEX, GL_BITMAP)
+            .and_then(|layout| PixelTarget::new(data, layout, &packing, Extent::plane(32, 32)))
+            .and_then(|target| pack_stencil(&bits, &PixelTransfer::default(), target));
+        self.check(result);
+    }
+
+    /// glGetClipPlane, in eye coordinates; `None` after an error.
+    pub fn get_clip_plane(&mut self, plane: u32) -> Option<[f64; 4]> {
+        let planes = &self.state.transform.clip_planes;
+        let equation = planes.get(plane.wrapping_sub(GL_CLIP_PLANE0) as usize).copied();
+        if equation.is_none() {
+            self.record_error(GL_INVALID_ENUM);
         }
+        equation
     }
 
     /// glGetString.

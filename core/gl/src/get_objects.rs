@@ -191,8 +191,8 @@ impl Context {
         })
     }
 
-    /// glGetPointer: the address that was given, or the offset in a buffer.
-    pub fn get_pointer(&mut self, pname: u32) -> usize {
+    /// glGetPointer: the address that was given, or the offset in a buffer. `None` after an error.
+    pub fn get_pointer(&mut self, pname: u32) -> Option<usize> {
         let texture = Slot::Texture0 as usize + self.client.active_texture.min(TEXTURE_UNITS - 1);
         let slot = match pname {
             GL_VERTEX_ARRAY_POINTER => Slot::Position as usize,
@@ -203,17 +203,17 @@ impl Context {
             GL_TEXTURE_COORD_ARRAY_POINTER => texture,
             GL_EDGE_FLAG_ARRAY_POINTER => EDGE_FLAG,
             GL_INDEX_ARRAY_POINTER => COLOR_INDEX,
-            GL_SELECTION_BUFFER_POINTER | GL_FEEDBACK_BUFFER_POINTER => return 0,
+            GL_SELECTION_BUFFER_POINTER | GL_FEEDBACK_BUFFER_POINTER => return Some(0),
             _ => {
                 self.record_error(GL_INVALID_ENUM);
-                return 0;
+                return None;
             }
         };
-        match &self.client.arrays[slot].source {
+        Some(match &self.client.arrays[slot].source {
             Source::Null => 0,
             Source::Buffer(_, _, offset) => *offset as usize,
             Source::Memory(address) => *address,
             Source::Blob(bytes) => bytes.as_ptr() as usize,
-        }
+        })
     }
 }

@@ -1,5 +1,7 @@
 //! Parameters of commands with scalar, vector, float and integer forms, owned and of fixed size.
 
+use afterglow_api::constants::*;
+
 use crate::context::Params;
 
 /// At most four values, with what the integer forms need: colours are normalised, the rest is not.
@@ -60,5 +62,38 @@ impl Values {
         self.ints.map_or(self.floats, |ints| {
             ints.map(|i| ((2.0 * f64::from(i) + 1.0) / f64::from(u32::MAX)) as f32)
         })
+    }
+}
+
+/// How many values the vector form of glLight, glMaterial, glFog, glTexEnv and the like takes for a parameter.
+pub fn parameter_values(pname: u32) -> usize {
+    match pname {
+        GL_AMBIENT
+        | GL_DIFFUSE
+        | GL_SPECULAR
+        | GL_POSITION
+        | GL_EMISSION
+        | GL_AMBIENT_AND_DIFFUSE
+        | GL_LIGHT_MODEL_AMBIENT
+        | GL_FOG_COLOR
+        | GL_TEXTURE_ENV_COLOR
+        | GL_TEXTURE_BORDER_COLOR
+        | GL_OBJECT_PLANE
+        | GL_EYE_PLANE => 4,
+        GL_SPOT_DIRECTION | GL_COLOR_INDEXES | GL_POINT_DISTANCE_ATTENUATION => 3,
+        _ => 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_have_four_values() {
+        assert_eq!(parameter_values(GL_FOG_COLOR), 4);
+        assert_eq!(parameter_values(GL_SPOT_DIRECTION), 3);
+        assert_eq!(parameter_values(GL_SHININESS), 1);
+        assert_eq!(parameter_values(0), 1);
     }
 }

@@ -70,6 +70,19 @@ impl Context {
         self.pixel_map_values(map, values.into());
     }
 
+    /// glPixelMap of integers, of which `greatest` is 1 in maps of colours (specification 3.6.3).
+    pub fn pixel_map_integers(&mut self, map: u32, values: &[u32], greatest: u32) {
+        let divisor = integer_scale(map, greatest);
+        let values: Vec<f32> = values.iter().map(|&value| (f64::from(value) / divisor) as f32).collect();
+        self.pixel_map(map, &values);
+    }
+
+    /// glGetPixelMap in integers, likewise.
+    pub fn get_pixel_map_integers(&mut self, map: u32, greatest: u32) -> Vec<u32> {
+        let scale = integer_scale(map, greatest);
+        self.get_pixel_map(map).iter().map(|&value| (f64::from(value) * scale).round() as u32).collect()
+    }
+
     pub(crate) fn exec_pixel_map(&mut self, map: u32, values: Arc<[f32]>) {
         let result = self.transfer.maps.set(map, &values);
         self.check(result);
@@ -384,5 +397,13 @@ fn extent((width, height): (i32, i32)) -> Result<Extent, u32> {
     match (usize::try_from(width), usize::try_from(height)) {
         (Ok(width), Ok(height)) => Ok(Extent::plane(width, height)),
         _ => Err(GL_INVALID_VALUE),
+    }
+}
+
+/// What integers of a pixel map are multiples of: indices stay what they are, colours are fractions.
+fn integer_scale(map: u32, greatest: u32) -> f64 {
+    match map {
+        GL_PIXEL_MAP_I_TO_I | GL_PIXEL_MAP_S_TO_S => 1.0,
+        _ => f64::from(greatest),
     }
 }

@@ -71,30 +71,30 @@ impl Context {
         }
     }
 
-    /// glGetQuery.
-    pub fn get_query(&mut self, target: u32, pname: u32) -> i32 {
+    /// glGetQuery; `None` after an error.
+    pub fn get_query(&mut self, target: u32, pname: u32) -> Option<i32> {
         match (target, pname) {
-            (GL_SAMPLES_PASSED, GL_CURRENT_QUERY) => self.queries.active.unwrap_or(0) as i32,
-            (GL_SAMPLES_PASSED, GL_QUERY_COUNTER_BITS) => 32,
+            (GL_SAMPLES_PASSED, GL_CURRENT_QUERY) => Some(self.queries.active.unwrap_or(0) as i32),
+            (GL_SAMPLES_PASSED, GL_QUERY_COUNTER_BITS) => Some(32),
             _ => {
                 self.record_error(GL_INVALID_ENUM);
-                0
+                None
             }
         }
     }
 
-    /// glGetQueryObject. Waits for the result.
-    pub fn get_query_object(&mut self, id: u32, pname: u32) -> u32 {
+    /// glGetQueryObject. Waits for the result. `None` after an error.
+    pub fn get_query_object(&mut self, id: u32, pname: u32) -> Option<u32> {
         if !self.queries.results.contains_key(&id) || self.queries.active == Some(id) {
             self.record_error(GL_INVALID_OPERATION);
-            return 0;
+            return None;
         }
         match pname {
-            GL_QUERY_RESULT_AVAILABLE => 1,
-            GL_QUERY_RESULT => self.query_result(id),
+            GL_QUERY_RESULT_AVAILABLE => Some(1),
+            GL_QUERY_RESULT => Some(self.query_result(id)),
             _ => {
                 self.record_error(GL_INVALID_ENUM);
-                0
+                None
             }
         }
     }

@@ -171,14 +171,11 @@ impl Context {
         }
     }
 
-    /// glGetTexLevelParameter.
-    pub fn get_tex_level_parameter(&mut self, target: u32, level: i32, pname: u32) -> i32 {
+    /// glGetTexLevelParameter; `None` after an error.
+    pub fn get_tex_level_parameter(&mut self, target: u32, level: i32, pname: u32) -> Option<i32> {
         let value = ImageTarget::from_gl(target)
             .and_then(|target| self.image_texture(target).lock().level_parameter(target.face, level, pname));
-        value.unwrap_or_else(|error| {
-            self.record_error(error);
-            0
-        })
+        value.map_err(|error| self.record_error(error)).ok()
     }
 
     /// glGetTexImage.

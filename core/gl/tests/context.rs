@@ -43,6 +43,50 @@ fn draws(frame: &Frame) -> Vec<&Draw> {
     frame.draws().map(|(_, draw)| draw).collect()
 }
 
+#[test]
+fn a_stipple_lies_in_memory_as_pixel_store_says() {
+    let (mut context, _) = context();
+    context.pixel_store(GL_UNPACK_LSB_FIRST, 1.0);
+    context.pixel_store(GL_UNPACK_ALIGNMENT, 8.0);
+    let mut image = [0; 256];
+    (image[0], image[8]) = (0x01, 0x80);
+    context.polygon_stipple_image(&image);
+    let pattern = context.get_polygon_stipple();
+    assert_eq!((pattern[0], pattern[4], pattern[8]), (0x80, 0x01, 0));
+    let mut written = [0; 256];
+    context.pixel_store(GL_PACK_LSB_FIRST, 1.0);
+    context.pixel_store(GL_PACK_ALIGNMENT, 8.0);
+    context.get_polygon_stipple_image(&mut written);
+    assert_eq!(written, image);
+    context.polygon_stipple_image(&image[..128]);
+    assert_eq!(context.get_error(), GL_INVALID_OPERATION);
+}
+
+#[test]
+fn a_mapped_buffer_has_an_address() {
+    let (mut context, _) = context();
+    assert_eq!(context.get_buffer_pointer(GL_ARRAY_BUFFER, GL_BUFFER_MAP_POINTER), None);
+    assert_eq!(context.get_error(), GL_INVALID_OPERATION);
+    context.bind_buffer(GL_ARRAY_BUFFER, 1);
+    context.buffer_data(GL_ARRAY_BUFFER, 4, None, GL_STATIC_DRAW);
+    assert_eq!(context.get_buffer_pointer(GL_ARRAY_BUFFER, GL_BUFFER_MAP_POINTER), Some(0));
+    assert!(context.map_buffer(GL_ARRAY_BUFFER, GL_WRITE_ONLY));
+    assert_ne!(context.get_buffer_pointer(GL_ARRAY_BUFFER, GL_BUFFER_MAP_POINTER), Some(0));
+    assert_eq!(context.get_buffer_pointer(GL_ARRAY_BUFFER, GL_BUFFER_SIZE), None);
+    assert_eq!(context.get_error(), GL_INVALID_ENUM);
+}
+
+#[test]
+fn pixel_maps_of_colours_are_fractions_and_those_of_indices_are_not() {
+    let (mut context, _) = context();
+    for map in [GL_PIXEL_MAP_I_TO_R, GL_PIXEL_MAP_I_TO_I] {
+        context.pixel_map_integers(map, &[0, 0xffff], 0xffff);
+        assert_eq!(context.get_pixel_map_integers(map, 0xffff), [0, 0xffff]);
+    }
+    assert_eq!(context.get_pixel_map(GL_PIXEL_MAP_I_TO_R), [0.0, 1.0]);
+    assert_eq!(context.get_pixel_map(GL_PIXEL_MAP_I_TO_I), [0.0, 65535.0]);
+}
+
 fn triangle(context: &mut Context) {
     context.begin(GL_TRIANGLES);
     for corner in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {

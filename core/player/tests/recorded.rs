@@ -118,7 +118,7 @@ fn numbers_of_all_types_are_converted() {
     let ambient = gl.get_light(GL_LIGHT0, GL_AMBIENT).unwrap().floats();
     assert!(ambient[0] == 1.0 && ambient[1].abs() < 1e-9, "{ambient:?}");
     assert_eq!(gl.get_tex_gen(GL_S, GL_OBJECT_PLANE).unwrap().floats(), [1.0, 2.0, 3.0, 4.0]);
-    assert_eq!(gl.get_clip_plane(GL_CLIP_PLANE0), [1.0, 2.0, 3.0, 4.0]);
+    assert_eq!(gl.get_clip_plane(GL_CLIP_PLANE0), Some([1.0, 2.0, 3.0, 4.0]));
     assert_eq!(gl.get_pixel_map(GL_PIXEL_MAP_R_TO_R), [0.0, 1.0]);
     assert_eq!(gl.get_float(GL_CURRENT_RASTER_POSITION)[..2], [5.0, 6.0]);
     assert_eq!(gl.get_boolean(GL_EDGE_FLAG), [true]);
@@ -157,7 +157,7 @@ fn images_have_the_programs_pixels() {
     player.next_frame().unwrap();
     let gl = player.context().unwrap();
     assert_eq!(gl.get_polygon_stipple(), [0x33; 128]);
-    assert_eq!(gl.get_tex_level_parameter(GL_TEXTURE_1D, 0, GL_TEXTURE_WIDTH), 4);
+    assert_eq!(gl.get_tex_level_parameter(GL_TEXTURE_1D, 0, GL_TEXTURE_WIDTH), Some(4));
     let frames = frames.0.lock().unwrap();
     // Of the fourth frame, glReadPixels has handed over what came before.
     let before_reading = frames[3].operations.iter();

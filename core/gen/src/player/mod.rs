@@ -1,16 +1,11 @@
 //! `dispatch.rs` of the player: from a trace's call to a method of the GL context.
 
-mod arguments;
-mod family;
-mod form;
-mod plain;
-
 use std::fmt::Write;
 
+use crate::calls::{self, Call, Reader, Route, canonical_commands, unclear};
 use crate::model::{Command, Model, ModelError};
-use crate::rules::{Family, Rules};
+use crate::rules::Rules;
 use crate::rust::NOTICE;
-use form::Form;
 
 /// The file: one arm for each command that is no alias and that the context supports.
 ///
@@ -23,7 +18,7 @@ pub fn dispatch(model: &Model, rules: &Rules) -> Result<String, ModelError> {
     // Forms that differ in their types alone are often decoded alike.
     let mut arms: Vec<(String, String)> = Vec::new();
     for command in canonical_commands(model, rules) {
-        let Some(call) = call(command, rules)? else { continue };
+        let Some(call) = arm(command, rules)? else { continue };
         match arms.iter_mut().find(|(_, known)| *known == call) {
             Some((patterns, _)) => *patterns += &format!(" | id::{}", command.name),
             None => arms.push((format!("id::{}", command.name), call)),
@@ -55,39 +50,58 @@ const TAIL: &str = "        _ => return Some(false),
 }
 ";
 
-fn canonical_commands<'a>(model: &'a Model, rules: &Rules) -> impl Iterator<Item = &'a Command> {
-    let names = rules.commands(model);
-    names.into_iter().map(|name| &model.commands[name]).filter(|command| command.alias.is_none())
-}
-
 /// The expression that an arm consists of; `None` if the command is unsupported.
-fn call(command: &Command, rules: &Rules) -> Result<Option<String>, ModelError> {
-    let play = &rules.play;
-    let special = play.special.get(&command.name);
-    let unsupported = play.unsupported.contains(&command.name);
-    if play.without_effect.contains(&command.name) {
+fn arm(command: &Command, rules: &Rules) -> Result<Option<String>, ModelError> {
+    if rules.play.without_effect.contains(&command.name) {
         return Ok(Some("{}".into()));
     }
-    let family = family_of(command, &play.families);
-    match (special, unsupported, family) {
-        (Some(function), false, None) => Ok(Some(format!("special::{function}(gl, a)?"))),
-        (None, true, _) => Ok(None),
-        (None, false, Some((family, form))) => family::call(command, family, form).map(Some),
-        (None, false, None) => plain::call(command, rules).map(Some),
-        _ => Err(unclear(&command.name, "is in several places of the manifest")),
-    }
-}
-
-/// The family of a command, and how it differs from the others of it.
-fn family_of<'a>(command: &'a Command, families: &'a [Family]) -> Option<(&'a Family, Form<'a>)> {
-    families.iter().find_map(|family| {
-        let form = |stem: &'a String| Form::of(&command.name, stem);
-        family.stems.keys().find_map(form).map(|form| (family, form))
+    Ok(match calls::route(command, rules, &Recorded)? {
+        Route::Special(function) => Some(format!("special::{function}(gl, a)?")),
+        Route::Unsupported => None,
+        Route::Method(Call { text, gives: true, .. }) => Some(format!("{{ let _ = {text}; }}")),
+        Route::Method(Call { text, .. }) => Some(text),
     })
 }
 
-fn unclear(command: &str, problem: &str) -> ModelError {
-    ModelError::Rules { file: "manifests/gl-behaviours.toml", reason: format!("{command} {problem}") }
+/// Arguments of a traced call, by the methods of `core/player/src/args.rs`.
+struct Recorded;
+
+impl Reader for Recorded {
+    fn scalar(&self, index: usize, decoder: &str) -> String {
+        format!("a.get({index}, {decoder})?")
+    }
+
+    fn vector(&self, index: usize, decoder: &str) -> String {
+        format!("a.vector({index}, {decoder})?")
+    }
+
+    fn first(&self, index: usize, decoder: &str) -> String {
+        format!("a.first({index}, {decoder})?")
+    }
+
+    fn few(&self, index: usize, decoder: &str) -> String {
+        format!("a.few({index}, {decoder})?")
+    }
+
+    fn list(&self, index: usize, count: usize, decoder: &str) -> String {
+        format!("a.list({index}, {}, {decoder})?", self.scalar(count, "int"))
+    }
+
+    fn pointer(&self, index: usize) -> String {
+        format!("a.pointer({index})?")
+    }
+
+    fn pointers(&self, index: usize, count: usize) -> String {
+        format!("a.pointers({index}, {})?", self.scalar(count, "int"))
+    }
+
+    fn bytes(&self, index: usize) -> Option<String> {
+        Some(format!("a.bytes({index})?"))
+    }
+
+    fn memory(&self, index: usize) -> Option<String> {
+        Some(format!("a.memory({index})?"))
+    }
 }
 
 #[cfg(test)]

@@ -50,15 +50,7 @@ pub fn pixel_map_floats(gl: &mut Context, a: Args) -> Option<()> {
 
 /// glPixelMapuiv and glPixelMapusv, whose greatest value is `MAX`.
 pub fn pixel_map_integers<const MAX: u32>(gl: &mut Context, a: Args) -> Option<()> {
-    use afterglow_api::constants::{GL_PIXEL_MAP_I_TO_I, GL_PIXEL_MAP_S_TO_S};
-    let map = a.get(0, uint)?;
-    // Indices stay what they are; colours are fractions (specification 3.6.3).
-    let divisor = match map {
-        GL_PIXEL_MAP_I_TO_I | GL_PIXEL_MAP_S_TO_S => 1.0,
-        _ => f64::from(MAX),
-    };
     let values = a.list(2, a.get(1, int)?, uint)?;
-    let values: Vec<f32> = values.into_iter().map(|value| (f64::from(value) / divisor) as f32).collect();
-    gl.pixel_map(map, &values);
+    gl.pixel_map_integers(a.get(0, uint)?, &values, MAX);
     Some(())
 }

@@ -1,13 +1,13 @@
 //! Calls of commands that take their arguments as they are.
 
-use super::arguments::{decoder, get};
+use super::arguments::decoder;
 use super::form::snake_case;
-use super::unclear;
+use super::{Call, Reader, unclear};
 use crate::model::{Base, Command, Length, ModelError, Param};
 use crate::rules::Rules;
 
 /// The call of the method that has the command's name.
-pub fn call(command: &Command, rules: &Rules) -> Result<String, ModelError> {
+pub fn call(command: &Command, rules: &Rules, reader: &dyn Reader) -> Result<Call, ModelError> {
     let method = match rules.play.methods.get(&command.name) {
         Some(method) => method.clone(),
         None => snake_case(&command.name),
@@ -19,47 +19,43 @@ pub fn call(command: &Command, rules: &Rules) -> Result<String, ModelError> {
             continue;
         }
         let required = rules.play.required_memory.contains(&command.name);
-        let argument = argument(index, param, required);
+        let argument = argument(index, param, required, reader);
         let problem = || unclear(&command.name, &format!("has a parameter {} of no plain kind", param.name));
         arguments.push(argument.ok_or_else(problem)?);
     }
-    let call = format!("gl.{method}({})", arguments.join(", "));
-    let returns = command.result.pointers > 0
+    let gives = command.result.pointers > 0
         || command.result.base != Base::Void
         || command.params.iter().any(is_result);
-    Ok(if returns { format!("{{ let _ = {call}; }}") } else { call })
+    Ok(Call { text: super::method_call(&method, &arguments), method, gives })
 }
 
 /// Whether the parameter only says how many elements another one points to.
-fn is_count(command: &Command, index: usize) -> bool {
+pub fn is_count(command: &Command, index: usize) -> bool {
     let mut pointers = command.params.iter().filter(|param| !is_result(param));
     pointers.any(|param| param.length == Length::Param(index as u8))
 }
 
 /// Whether the command writes to it.
-fn is_result(param: &Param) -> bool {
+pub fn is_result(param: &Param) -> bool {
     param.ctype.pointers > 0 && !param.ctype.constant
 }
 
-fn argument(index: usize, param: &Param, required: bool) -> Option<String> {
+fn argument(index: usize, param: &Param, required: bool, reader: &dyn Reader) -> Option<String> {
     let ctype = param.ctype;
     if ctype.is_scalar() {
-        return decoder(ctype.base).map(|decoder| get(index, decoder));
+        return decoder(ctype.base).map(|decoder| reader.scalar(index, decoder));
     }
     match (ctype.pointers, ctype.base, &param.length) {
-        (2, Base::Void, Length::Param(count)) => {
-            Some(format!("a.pointers({index}, {})?", get((*count).into(), "int")))
-        }
-        (1, Base::Void | Base::Boolean, _) if is_address(param) => Some(format!("a.pointer({index})?")),
+        (2, Base::Void, Length::Param(count)) => Some(reader.pointers(index, (*count).into())),
+        (1, Base::Void | Base::Boolean, _) if is_address(param) => Some(reader.pointer(index)),
         // Compressed images always have data; their size is the bytes' own.
-        (1, Base::Void, Length::Param(_)) => Some(format!("a.bytes({index})?")),
-        (1, Base::Void | Base::UByte, _) if required => Some(format!("a.bytes({index})?")),
-        (1, Base::Void | Base::UByte, Length::Computed(_)) => Some(format!("a.memory({index})?")),
-        (1, base, Length::Count(1)) => decoder(base).map(|decoder| format!("a.first({index}, {decoder})?")),
-        (1, base, Length::Count(_)) => decoder(base).map(|decoder| format!("a.vector({index}, {decoder})?")),
+        (1, Base::Void, Length::Param(_)) => reader.bytes(index),
+        (1, Base::Void | Base::UByte, _) if required => reader.bytes(index),
+        (1, Base::Void | Base::UByte, Length::Computed(_)) => reader.memory(index),
+        (1, base, Length::Count(1)) => decoder(base).map(|decoder| reader.first(index, decoder)),
+        (1, base, Length::Count(_)) => decoder(base).map(|decoder| reader.vector(index, decoder)),
         (1, base, Length::Param(count)) => {
-            let count = get((*count).into(), "int");
-            decoder(base).map(|decoder| format!("&a.list({index}, {count}, {decoder})?"))
+            decoder(base).map(|decoder| format!("&{}", reader.list(index, (*count).into(), decoder)))
         }
         _ => None,
     }

@@ -1,8 +1,8 @@
-//! Expressions that decode one argument of a call.
+//! Names of the functions that decode one argument of a call.
 
 use crate::model::Base;
 
-/// The decoder of a scalar type, as a function of `core/player/src/args.rs`.
+/// The decoder of a scalar type: a function of `core/player/src/args.rs` and of `gl-shim/src/number.rs`.
 pub fn decoder(base: Base) -> Option<&'static str> {
     Some(match base {
         Base::Enum | Base::Bitfield | Base::UInt | Base::UByte => "uint",
@@ -27,9 +27,4 @@ pub fn normalizer(base: Base) -> &'static str {
         Base::UInt => "unorm32",
         _ => "float",
     }
-}
-
-/// Argument `index` decoded.
-pub fn get(index: usize, decoder: &str) -> String {
-    format!("a.get({index}, {decoder})?")
 }

@@ -14,3 +14,4 @@ pub mod boundary;
 pub mod current;
 #[cfg(target_os = "linux")]
 pub mod glx;
+pub mod options;

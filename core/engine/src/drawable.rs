@@ -1,7 +1,10 @@
 //! What is drawn to, as contexts and window systems know it.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicI32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU64, Ordering};
+use std::time::Duration;
+
+use afterglow_gl::backend::End;
 
 use crate::message::Message;
 use crate::thread::Engine;
@@ -32,25 +35,41 @@ pub(crate) struct Shared {
     /// Width in the upper half, height in the lower one.
     size: AtomicU64,
     swap_interval: AtomicI32,
-    pub(crate) queue: Queue,
+    /// Complete frames.
+    queue: Queue,
+    /// Parts of frames.
+    parts: Queue,
+    /// It waits to be shown without a buffer swap.
+    pub(crate) is_presenting: AtomicBool,
 }
 
 /// Frames that were handed over and not finished.
-#[derive(Default)]
 pub(crate) struct Queue {
+    most: u32,
     pending: parking_lot::Mutex<u32>,
     finished: parking_lot::Condvar,
 }
 
 /// Frames of a drawable that wait or are being drawn, at most.
 const MOST_PENDING: u32 = 2;
+/// Parts of frames, likewise: a program that never swaps must not fill the memory.
+const MOST_PARTS: u32 = 64;
+/// How often a thread that waits for the render thread looks whether that is still there.
+const LOOK: Duration = Duration::from_millis(100);
 
 impl Queue {
-    /// Waits until there is room for a frame, and takes it.
-    pub(crate) fn enter(&self) {
+    fn new(most: u32) -> Self {
+        Self { most, pending: parking_lot::Mutex::default(), finished: parking_lot::Condvar::new() }
+    }
+
+    /// Waits until there is room for a frame, and takes it. Does not wait for a thread that is gone.
+    pub(crate) fn enter(&self, is_alive: impl Fn() -> bool) {
+        if !is_alive() {
+            return;
+        }
         let mut pending = self.pending.lock();
-        while *pending >= MOST_PENDING {
-            self.finished.wait(&mut pending);
+        while *pending >= self.most && is_alive() {
+            self.finished.wait_for(&mut pending, LOOK);
         }
         *pending += 1;
     }
@@ -70,7 +89,9 @@ impl Drawable {
             engine,
             size: AtomicU64::new(packed(size)),
             swap_interval: AtomicI32::new(1),
-            queue: Queue::default(),
+            queue: Queue::new(MOST_PENDING),
+            parts: Queue::new(MOST_PARTS),
+            is_presenting: AtomicBool::new(false),
         };
         Self { shared: Arc::new(shared) }
     }
@@ -96,9 +117,22 @@ impl Drawable {
         self.shared.swap_interval.store(interval, Ordering::Relaxed);
     }
 
-    /// Shows what is drawn without a buffer swap: after glFlush of a drawable with one buffer.
+    /// Shows what is drawn without a buffer swap: after glFlush of a drawable with one buffer. Programs flush often;
+    /// what waits to be shown already is not shown twice.
     pub fn present(&self) {
-        self.shared.engine.send(Message::Present { drawable: self.clone() });
+        if !self.shared.is_presenting.swap(true, Ordering::AcqRel) {
+            self.shared.engine.send(Message::Present { drawable: self.clone() });
+        }
+    }
+}
+
+impl Shared {
+    /// The queue of frames that end like this.
+    pub(crate) fn queue_of(&self, end: End) -> &Queue {
+        match end {
+            End::Swap => &self.queue,
+            End::Continued => &self.parts,
+        }
     }
 }
 

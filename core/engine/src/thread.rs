@@ -3,12 +3,13 @@
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
+use std::time::Duration;
 
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{DeviceInfo, Gpu, GpuError, GpuOptions};
 use afterglow_render::{Mode, PathtraceOptions, RenderOptions, Renderer};
-use parking_lot::Mutex;
+use parking_lot::{Condvar, Mutex};
 
 use crate::drawable::{Drawable, Surface};
 use crate::message::Message;
@@ -52,7 +53,7 @@ pub struct Engine {
 
 struct Shared {
     sender: Mutex<mpsc::Sender<Message>>,
-    alive: Arc<AtomicBool>,
+    life: Arc<Life>,
     recycled: Arc<Mutex<Vec<Frame>>>,
     /// A forked process has no render thread.
     process: u32,
@@ -69,8 +70,8 @@ impl Engine {
         let (sender, receiver) = mpsc::channel();
         let (ready, is_ready) = mpsc::sync_channel(1);
         let recycled = Arc::<Mutex<Vec<Frame>>>::default();
-        let alive = Arc::new(AtomicBool::new(true));
-        let (frames, lives) = (recycled.clone(), alive.clone());
+        let life = Arc::new(Life::default());
+        let (frames, lives) = (recycled.clone(), life.clone());
         std::thread::Builder::new().name("afterglow-render".into()).spawn(move || {
             let opened = Gpu::new(&options.gpu).map(|gpu| {
                 let info = gpu.info().clone();
@@ -86,13 +87,13 @@ impl Engine {
                     return;
                 }
             };
-            let _guard = Ending(lives);
-            state.run(&receiver);
+            let ending = Ending(lives);
+            state.run(&receiver, &ending.0.is_wanted);
         })?;
         let device = is_ready.recv().map_err(|_| EngineError::Died)??;
         let shared = Shared {
             sender: Mutex::new(sender),
-            alive,
+            life,
             recycled,
             process: std::process::id(),
             last_id: AtomicU64::new(0),
@@ -108,7 +109,16 @@ impl Engine {
 
     /// Whether the thread runs, in this process.
     pub fn is_alive(&self) -> bool {
-        self.shared.alive.load(Ordering::Relaxed) && self.shared.process == std::process::id()
+        !self.shared.life.has_ended() && self.shared.process == std::process::id()
+    }
+
+    /// Ends the thread after the frame that it draws, and waits for that, though not longer than `patience`.
+    pub fn stop(&self, patience: Duration) {
+        if self.is_alive() {
+            self.shared.life.is_wanted.store(false, Ordering::Relaxed);
+            self.send(Message::Stop);
+            self.shared.life.wait_for_end(patience);
+        }
     }
 
     /// A new group of contexts.
@@ -136,16 +146,52 @@ impl Engine {
 
     /// An empty frame, with the memory of an earlier one where possible.
     pub(crate) fn recycled(&self) -> Frame {
+        // In a forked process the lock may be held for ever.
+        if !self.is_alive() {
+            return Frame::default();
+        }
         self.shared.recycled.lock().pop().unwrap_or_default()
     }
 }
 
+/// Whether the thread is to go on, and whether it does.
+struct Life {
+    is_wanted: AtomicBool,
+    has_ended: AtomicBool,
+    lock: Mutex<()>,
+    ended: Condvar,
+}
+
+impl Default for Life {
+    fn default() -> Self {
+        Self {
+            is_wanted: AtomicBool::new(true),
+            has_ended: AtomicBool::new(false),
+            lock: Mutex::default(),
+            ended: Condvar::new(),
+        }
+    }
+}
+
+impl Life {
+    fn has_ended(&self) -> bool {
+        self.has_ended.load(Ordering::Relaxed)
+    }
+
+    fn wait_for_end(&self, patience: Duration) {
+        let mut lock = self.lock.lock();
+        self.ended.wait_while_for(&mut lock, |()| !self.has_ended(), patience);
+    }
+}
+
 /// Says that the thread is gone, however it ended.
-struct Ending(Arc<AtomicBool>);
+struct Ending(Arc<Life>);
 
 impl Drop for Ending {
     fn drop(&mut self) {
-        self.0.store(false, Ordering::Relaxed);
+        let _lock = self.0.lock.lock();
+        self.0.has_ended.store(true, Ordering::Relaxed);
+        self.0.ended.notify_all();
     }
 }
 
@@ -174,9 +220,11 @@ impl State {
         }
     }
 
-    /// Handles messages until nobody can send any more.
-    fn run(mut self, messages: &mpsc::Receiver<Message>) {
-        while let Ok(message) = messages.recv() {
+    /// Handles messages until nobody can send any more, or the thread is not wanted.
+    fn run(mut self, messages: &mpsc::Receiver<Message>, is_wanted: &AtomicBool) {
+        while let Ok(message) = messages.recv()
+            && is_wanted.load(Ordering::Relaxed)
+        {
             self.handle(message);
         }
     }
@@ -195,7 +243,11 @@ impl State {
             Message::Ask { group, drawable, frame, request, reply } => {
                 let _ = reply.send(self.answer(group, &drawable, frame, request));
             }
-            Message::Present { drawable } => self.present(&drawable),
+            Message::Present { drawable } => {
+                drawable.shared.is_presenting.store(false, Ordering::Release);
+                self.present(&drawable);
+            }
+            Message::Stop => {}
         }
     }
 
@@ -211,8 +263,8 @@ impl State {
         }
         if end == End::Swap {
             self.present(drawable);
-            drawable.shared.queue.leave();
         }
+        drawable.shared.queue_of(end).leave();
     }
 
     fn answer(&mut self, group: u64, drawable: &Drawable, frame: Frame, request: Request) -> Reply {

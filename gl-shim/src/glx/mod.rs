@@ -15,6 +15,7 @@ mod contexts;
 mod displays;
 mod drawables;
 pub mod exports;
+mod glyphs;
 pub mod proc_address;
 mod render;
 mod xlib;

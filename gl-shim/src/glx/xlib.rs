@@ -109,7 +109,6 @@ macro_rules! functions {
 
 functions! {
     free = XFree(*mut c_void) -> c_int;
-    default_screen = XDefaultScreen(*mut Display) -> c_int;
     screen_count = XScreenCount(*mut Display) -> c_int;
     display_string = XDisplayString(*mut Display) -> *const c_char;
     root_window = XRootWindow(*mut Display, c_int) -> Xid;

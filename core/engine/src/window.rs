@@ -35,11 +35,21 @@ impl Window {
         match self.show(gpu, servers, renderer, waits_for_blank) {
             Ok(size) => size,
             Err(error) => {
-                tracing::error!("nothing can be shown in a window: {error}");
+                // Programs destroy windows whose last pictures are still to be shown.
+                if self.is_there(servers) {
+                    tracing::error!("nothing can be shown in a window: {error}");
+                }
                 self.has_failed = true;
                 self.swapchain = None;
                 None
             }
+        }
+    }
+
+    fn is_there(&self, servers: &Servers) -> bool {
+        match &self.surface {
+            Surface::None => false,
+            Surface::X11 { display, window } => servers.has_window(display, *window),
         }
     }
 

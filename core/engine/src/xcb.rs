@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 
 use afterglow_gpu::{Gpu, GpuError, WindowSurface};
+use x11rb::errors::ReplyError;
+use x11rb::protocol::xproto::ConnectionExt;
 use x11rb::xcb_ffi::XCBConnection;
 
 /// Connections by the server's name. They are never closed: surfaces depend on them.
@@ -26,6 +28,13 @@ impl Servers {
         let connection = self.connections[display].get_raw_xcb_connection();
         // SAFETY: connections live as long as the thread that owns all surfaces, and only it uses them.
         unsafe { gpu.xcb_surface(connection, window) }
+    }
+
+    /// Whether a server has such a window. `true` where that cannot be known.
+    pub(crate) fn has_window(&self, display: &str, window: u32) -> bool {
+        let Some(connection) = self.connections.get(display) else { return true };
+        let answer = connection.get_geometry(window).map(|cookie| cookie.reply());
+        !matches!(answer, Ok(Err(ReplyError::X11Error(_))))
     }
 }
 

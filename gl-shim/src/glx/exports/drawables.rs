@@ -133,7 +133,7 @@ unsafe fn pbuffer(
 ) -> Option<Xid> {
     let config = config::from_handle(config)?;
     let is_possible = |size| (0..=PBUFFER_EXTENT).contains(&size);
-    if !is_largest && !(is_possible(width) && is_possible(height)) {
+    if !(is_largest || is_possible(width) && is_possible(height)) {
         return None;
     }
     let size = [width, height].map(|size| size.clamp(1, PBUFFER_EXTENT) as u32);

@@ -32,6 +32,7 @@ pub struct Drawable {
 pub(crate) struct Shared {
     pub(crate) id: u64,
     pub(crate) engine: Engine,
+    surface: Surface,
     /// Width in the upper half, height in the lower one.
     size: AtomicU64,
     swap_interval: AtomicI32,
@@ -83,10 +84,11 @@ impl Queue {
 }
 
 impl Drawable {
-    pub(crate) fn new(engine: Engine, id: u64, size: (u32, u32)) -> Self {
+    pub(crate) fn new(engine: Engine, id: u64, surface: Surface, size: (u32, u32)) -> Self {
         let shared = Shared {
             id,
             engine,
+            surface,
             size: AtomicU64::new(packed(size)),
             swap_interval: AtomicI32::new(1),
             queue: Queue::new(MOST_PENDING),
@@ -100,6 +102,14 @@ impl Drawable {
     pub fn size(&self) -> (u32, u32) {
         let packed = self.shared.size.load(Ordering::Relaxed);
         ((packed >> 32) as u32, packed as u32)
+    }
+
+    /// Asks the window system for a window's size and takes note of it.
+    pub fn ask_size(&self) -> (u32, u32) {
+        if let Some(size) = self.shared.engine.window_size(&self.shared.surface) {
+            self.set_size(size);
+        }
+        self.size()
     }
 
     /// Takes note of another size.

@@ -59,6 +59,8 @@ struct Shared {
     process: u32,
     last_id: AtomicU64,
     device: DeviceInfo,
+    /// Asked for the sizes of windows by threads that draw.
+    sizes: Mutex<Servers>,
 }
 
 impl Engine {
@@ -98,6 +100,7 @@ impl Engine {
             process: std::process::id(),
             last_id: AtomicU64::new(0),
             device,
+            sizes: Mutex::default(),
         };
         Ok(Self { shared: Arc::new(shared) })
     }
@@ -129,8 +132,18 @@ impl Engine {
     /// Something to draw to, of this size at first.
     pub fn drawable(&self, surface: Surface, size: (u32, u32)) -> Drawable {
         let id = self.next_id();
-        self.send(Message::Drawable { drawable: id, surface });
-        Drawable::new(self.clone(), id, size)
+        self.send(Message::Drawable { drawable: id, surface: surface.clone() });
+        Drawable::new(self.clone(), id, surface, size)
+    }
+
+    /// Width and height of a window now, pixels. The answer is waited for, on a connection that is not the program's.
+    pub(crate) fn window_size(&self, surface: &Surface) -> Option<(u32, u32)> {
+        match surface {
+            Surface::X11 { display, window } if self.is_alive() => {
+                self.shared.sizes.lock().size(display, *window)
+            }
+            _ => None,
+        }
     }
 
     fn next_id(&self) -> u64 {

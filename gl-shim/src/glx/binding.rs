@@ -1,6 +1,6 @@
 //! What is current on a thread: a context, and what it draws to and reads from (GLX 1.4 specification, 3.3.7).
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ffi::c_void;
 use std::ptr::null_mut;
 use std::sync::Arc;
@@ -25,6 +25,8 @@ pub struct Binding {
     pub context: Arc<GlxContext>,
     /// What is drawn to.
     pub draw: Arc<GlxDrawable>,
+    /// The viewport for which the window's size was asked last.
+    asked: Cell<(i32, i32)>,
 }
 
 thread_local! {
@@ -66,7 +68,7 @@ impl Binding {
         // SAFETY: the calling thread has claimed the context.
         unsafe { &mut *context.gl() }.set_drawable(width, height);
         current::set(context.gl());
-        Self { display, draw_id, read_id, context, draw }
+        Self { display, draw_id, read_id, context, draw, asked: Cell::default() }
     }
 
     /// Whether what is drawn shows without a buffer swap.
@@ -163,6 +165,25 @@ pub fn flushed(gl: &mut Context) {
             }
         } else if binding.context.is_shared() {
             gl.hand_over_so_far();
+        }
+    });
+}
+
+/// What glViewport of the current context, `gl`, does beyond it. A program that was told of its window's new size comes
+/// here before the render thread has seen that size.
+pub fn viewport_set(gl: &mut Context, width: i32, height: i32) {
+    let wanted = (width, height);
+    let (known_width, known_height) = gl.drawable();
+    if (known_width as i32, known_height as i32) == wanted {
+        return;
+    }
+    with(|binding| {
+        // Viewports that are smaller for another reason come again and again.
+        if binding.asked.replace(wanted) != wanted
+            && let Some(target) = binding.draw.target()
+        {
+            let (width, height) = target.ask_size();
+            gl.set_drawable(width, height);
         }
     });
 }

@@ -20,4 +20,4 @@ pub mod proc_address;
 mod render;
 mod xlib;
 
-pub use binding::flushed;
+pub use binding::{flushed, viewport_set};

@@ -14,7 +14,7 @@ use parking_lot::{Condvar, Mutex};
 use crate::drawable::{Drawable, Surface};
 use crate::message::Message;
 use crate::port::ShareGroup;
-use crate::window::Window;
+use crate::window::{Wanted, Window};
 use crate::xcb::Servers;
 
 /// Empty frames that are kept to be filled again.
@@ -312,8 +312,8 @@ impl State {
         else {
             return;
         };
-        let waits_for_blank = drawable.swap_interval() != 0;
-        if let Some(size) = window.present(&self.gpu, &mut self.servers, renderer, waits_for_blank) {
+        let wanted = Wanted { waits_for_blank: drawable.swap_interval() != 0, size: drawable.size() };
+        if let Some(size) = window.present(&self.gpu, &mut self.servers, renderer, wanted) {
             drawable.set_size(size);
         }
     }

@@ -1,7 +1,7 @@
 //! The thread that owns the device.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
@@ -9,9 +9,10 @@ use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{DeviceInfo, Gpu, GpuError, GpuOptions};
 use afterglow_render::{Mode, PathtraceOptions, RenderOptions, Renderer};
-use parking_lot::{Condvar, Mutex};
+use parking_lot::Mutex;
 
 use crate::drawable::{Drawable, Surface};
+use crate::life::{Ending, Life};
 use crate::message::Message;
 use crate::port::ShareGroup;
 use crate::window::{Wanted, Window};
@@ -90,7 +91,7 @@ impl Engine {
                 }
             };
             let ending = Ending(lives);
-            state.run(&receiver, &ending.0.is_wanted);
+            state.run(&receiver, &ending);
         })?;
         let device = is_ready.recv().map_err(|_| EngineError::Died)??;
         let shared = Shared {
@@ -118,7 +119,7 @@ impl Engine {
     /// Ends the thread after the frame that it draws, and waits for that, though not longer than `patience`.
     pub fn stop(&self, patience: Duration) {
         if self.is_alive() {
-            self.shared.life.is_wanted.store(false, Ordering::Relaxed);
+            self.shared.life.want_end();
             self.send(Message::Stop);
             self.shared.life.wait_for_end(patience);
         }
@@ -167,47 +168,6 @@ impl Engine {
     }
 }
 
-/// Whether the thread is to go on, and whether it does.
-struct Life {
-    is_wanted: AtomicBool,
-    has_ended: AtomicBool,
-    lock: Mutex<()>,
-    ended: Condvar,
-}
-
-impl Default for Life {
-    fn default() -> Self {
-        Self {
-            is_wanted: AtomicBool::new(true),
-            has_ended: AtomicBool::new(false),
-            lock: Mutex::default(),
-            ended: Condvar::new(),
-        }
-    }
-}
-
-impl Life {
-    fn has_ended(&self) -> bool {
-        self.has_ended.load(Ordering::Relaxed)
-    }
-
-    fn wait_for_end(&self, patience: Duration) {
-        let mut lock = self.lock.lock();
-        self.ended.wait_while_for(&mut lock, |()| !self.has_ended(), patience);
-    }
-}
-
-/// Says that the thread is gone, however it ended.
-struct Ending(Arc<Life>);
-
-impl Drop for Ending {
-    fn drop(&mut self) {
-        let _lock = self.0.lock.lock();
-        self.0.has_ended.store(true, Ordering::Relaxed);
-        self.0.ended.notify_all();
-    }
-}
-
 /// Everything that the thread owns.
 struct State {
     gpu: Gpu,
@@ -234,9 +194,9 @@ impl State {
     }
 
     /// Handles messages until nobody can send any more, or the thread is not wanted.
-    fn run(mut self, messages: &mpsc::Receiver<Message>, is_wanted: &AtomicBool) {
+    fn run(mut self, messages: &mpsc::Receiver<Message>, ending: &Ending) {
         while let Ok(message) = messages.recv()
-            && is_wanted.load(Ordering::Relaxed)
+            && ending.is_wanted()
         {
             self.handle(message);
         }

@@ -190,16 +190,103 @@ pub fn viewport_set(gl: &mut Context, width: i32, height: i32) {
 
 #[cfg(test)]
 mod tests {
+    use std::ptr::{null, without_provenance, without_provenance_mut};
+
+    use super::super::config::{Config, Visual, all, keep};
+    use super::super::drawables::Kind;
     use super::*;
+
+    const CONFIG: Config = Config {
+        id: 1,
+        screen: 0,
+        visual: Visual { id: 1, depth: 24 },
+        is_double: true,
+        depth: 24,
+        stencil: 8,
+        accum: 0,
+    };
+
+    /// A display's address that nothing is read from: pbuffers are not asked about.
+    fn display(number: usize) -> *mut Display {
+        without_provenance_mut(number)
+    }
+
+    fn pbuffer(display: *mut Display, size: (u32, u32)) -> Xid {
+        // SAFETY: the display of pbuffers is not used.
+        unsafe { drawables::create(display, Kind::Pbuffer, &CONFIG, String::new(), size) }
+    }
+
+    fn bind(display: *mut Display, drawable: Xid, context: usize) -> bool {
+        // SAFETY: as above.
+        unsafe { make_current(display, drawable, drawable, without_provenance(context)) }
+    }
 
     #[test]
     fn garbage_is_refused() {
-        let garbage = std::ptr::without_provenance(0x5555);
-        // SAFETY: without a context, the display is not used.
-        assert!(!unsafe { make_current(null_mut(), 1, 1, garbage) });
-        // SAFETY: as above.
-        assert!(unsafe { make_current(null_mut(), 0, 0, std::ptr::null()) });
+        assert!(!bind(null_mut(), 1, 0x5555));
+        assert!(bind(null_mut(), 0, 0));
         assert!(with(|_| ()).is_none());
         swap(null_mut(), 1);
+    }
+
+    #[test]
+    fn what_is_current_follows_the_program() {
+        let display = display(0x70);
+        let (small, large) = (pbuffer(display, (8, 4)), pbuffer(display, (80, 40)));
+        let context = contexts::create(&CONFIG, null()).unwrap();
+        assert!(bind(display, small, context.handle) && bind(display, small, context.handle));
+        assert_eq!(current::get(), context.gl());
+        assert_eq!(with_gl(|_, gl| gl.drawable()), Some((8, 4)));
+        assert!(!bind(display, 0xffff_0000, context.handle) && !bind(display, large, 0x5555));
+        assert_eq!(with(|binding| binding.draw_id), Some(small));
+        assert!(bind(display, large, context.handle));
+        assert_eq!(with_gl(|_, gl| gl.drawable()), Some((80, 40)));
+        swap(display, large);
+        swap(display, small);
+        assert!(bind(display, 0, 0));
+        assert!(current::get().is_null() && with(|_| ()).is_none());
+    }
+
+    #[test]
+    fn a_context_is_current_in_one_thread_at_a_time() {
+        let address = 0x71;
+        let drawable = pbuffer(display(address), (8, 4));
+        let context = contexts::create(&CONFIG, null()).unwrap().handle;
+        let elsewhere = move || std::thread::spawn(move || bind(display(address), drawable, context)).join();
+        // Threads that end release what they have.
+        assert!(elsewhere().unwrap() && elsewhere().unwrap());
+        assert!(bind(display(address), drawable, context));
+        assert!(!elsewhere().unwrap());
+        assert!(bind(display(address), 0, 0));
+        assert!(elsewhere().unwrap());
+    }
+
+    #[test]
+    fn what_is_destroyed_lives_while_it_is_current() {
+        let display = display(0x72);
+        let drawable = pbuffer(display, (8, 4));
+        let context = contexts::create(&CONFIG, null()).unwrap().handle;
+        assert!(bind(display, drawable, context));
+        contexts::destroy(without_provenance(context));
+        drawables::destroy(display, drawable);
+        assert_eq!(with_gl(|_, gl| gl.get_error()), Some(0));
+        swap(display, drawable);
+        assert!(bind(display, 0, 0));
+        assert!(!bind(display, drawable, context));
+    }
+
+    #[test]
+    fn a_configuration_says_whether_a_flush_shows() {
+        let table = keep(all(0, &[Visual { id: 0x95, depth: 24 }]));
+        let display = display(0x73);
+        for config in table {
+            let context = contexts::create(config, null()).unwrap().handle;
+            // SAFETY: as above.
+            let drawable =
+                unsafe { drawables::create(display, Kind::Pbuffer, config, String::new(), (1, 1)) };
+            assert!(bind(display, drawable, context));
+            assert_eq!(with(Binding::is_single), Some(!config.is_double));
+        }
+        assert!(bind(display, 0, 0));
     }
 }

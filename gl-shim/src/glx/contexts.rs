@@ -124,3 +124,38 @@ pub fn destroy(handle: *const c_void) {
     let removed = CONTEXTS.lock().by_handle.as_mut().and_then(|contexts| contexts.remove(&(handle as usize)));
     drop(removed);
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ptr::{null, without_provenance};
+
+    use super::super::config::{Visual, all, keep};
+    use super::*;
+
+    #[test]
+    fn handles_come_and_go() {
+        let config = &keep(all(0, &[Visual { id: 0x93, depth: 24 }]))[0];
+        let garbage = without_provenance(0x1235);
+        assert!(get(garbage).is_none() && create(config, garbage).is_none());
+        destroy(garbage);
+        let first = create(config, null()).unwrap();
+        assert!(!first.is_shared());
+        let second = create(config, without_provenance(first.handle)).unwrap();
+        assert!(first.is_shared() && first.handle != second.handle);
+        destroy(without_provenance(second.handle));
+        drop(second);
+        assert!(!first.is_shared() && get(without_provenance(first.handle)).is_some());
+        destroy(without_provenance(first.handle));
+        assert!(get(without_provenance(first.handle)).is_none());
+    }
+
+    #[test]
+    fn one_thread_has_a_context() {
+        let config = &keep(all(0, &[Visual { id: 0x94, depth: 24 }]))[0];
+        let context = create(config, null()).unwrap();
+        assert!(context.claim() && !context.claim());
+        context.release();
+        assert!(context.claim());
+        destroy(without_provenance(context.handle));
+    }
+}

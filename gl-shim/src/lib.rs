@@ -18,6 +18,7 @@ mod generated;
 pub mod glx;
 mod memory;
 mod number;
+pub mod options;
 pub mod proc_address;
 mod special;
 pub mod stub;

@@ -1,8 +1,10 @@
 //! What is drawn to, as contexts and window systems know it.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicI32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU64, Ordering};
 use std::time::Duration;
+
+use afterglow_gl::backend::End;
 
 use crate::message::Message;
 use crate::thread::Engine;
@@ -30,30 +32,45 @@ pub struct Drawable {
 pub(crate) struct Shared {
     pub(crate) id: u64,
     pub(crate) engine: Engine,
+    surface: Surface,
     /// Width in the upper half, height in the lower one.
     size: AtomicU64,
     swap_interval: AtomicI32,
-    pub(crate) queue: Queue,
+    /// Complete frames.
+    queue: Queue,
+    /// Parts of frames.
+    parts: Queue,
+    /// It waits to be shown without a buffer swap.
+    pub(crate) is_presenting: AtomicBool,
 }
 
 /// Frames that were handed over and not finished.
-#[derive(Default)]
 pub(crate) struct Queue {
+    most: u32,
     pending: parking_lot::Mutex<u32>,
     finished: parking_lot::Condvar,
 }
 
-/// How long to wait before looking whether the render thread is still there.
-const PATIENCE: Duration = Duration::from_millis(200);
 /// Frames of a drawable that wait or are being drawn, at most.
 const MOST_PENDING: u32 = 2;
+/// Parts of frames, likewise: a program that never swaps must not fill the memory.
+const MOST_PARTS: u32 = 64;
+/// How often a thread that waits for the render thread looks whether that is still there.
+const LOOK: Duration = Duration::from_millis(100);
 
 impl Queue {
-    /// Waits until there is room for a frame, and takes it. `is_served` says whether anybody still makes room.
-    pub(crate) fn enter(&self, is_served: impl Fn() -> bool) {
+    fn new(most: u32) -> Self {
+        Self { most, pending: parking_lot::Mutex::default(), finished: parking_lot::Condvar::new() }
+    }
+
+    /// Waits until there is room for a frame, and takes it. Does not wait for a thread that is gone.
+    pub(crate) fn enter(&self, is_alive: impl Fn() -> bool) {
+        if !is_alive() {
+            return;
+        }
         let mut pending = self.pending.lock();
-        while *pending >= MOST_PENDING && is_served() {
-            self.finished.wait_for(&mut pending, PATIENCE);
+        while *pending >= self.most && is_alive() {
+            self.finished.wait_for(&mut pending, LOOK);
         }
         *pending += 1;
     }
@@ -67,13 +84,16 @@ impl Queue {
 }
 
 impl Drawable {
-    pub(crate) fn new(engine: Engine, id: u64, size: (u32, u32)) -> Self {
+    pub(crate) fn new(engine: Engine, id: u64, surface: Surface, size: (u32, u32)) -> Self {
         let shared = Shared {
             id,
             engine,
+            surface,
             size: AtomicU64::new(packed(size)),
             swap_interval: AtomicI32::new(1),
-            queue: Queue::default(),
+            queue: Queue::new(MOST_PENDING),
+            parts: Queue::new(MOST_PARTS),
+            is_presenting: AtomicBool::new(false),
         };
         Self { shared: Arc::new(shared) }
     }
@@ -82,6 +102,14 @@ impl Drawable {
     pub fn size(&self) -> (u32, u32) {
         let packed = self.shared.size.load(Ordering::Relaxed);
         ((packed >> 32) as u32, packed as u32)
+    }
+
+    /// Asks the window system for a window's size and takes note of it.
+    pub fn ask_size(&self) -> (u32, u32) {
+        if let Some(size) = self.shared.engine.window_size(&self.shared.surface) {
+            self.set_size(size);
+        }
+        self.size()
     }
 
     /// Takes note of another size.
@@ -99,9 +127,22 @@ impl Drawable {
         self.shared.swap_interval.store(interval, Ordering::Relaxed);
     }
 
-    /// Shows what is drawn without a buffer swap: after glFlush of a drawable with one buffer.
+    /// Shows what is drawn without a buffer swap: after glFlush of a drawable with one buffer. Programs flush often;
+    /// what waits to be shown already is not shown twice.
     pub fn present(&self) {
-        self.shared.engine.send(Message::Present { drawable: self.clone() });
+        if !self.shared.is_presenting.swap(true, Ordering::AcqRel) {
+            self.shared.engine.send(Message::Present { drawable: self.clone() });
+        }
+    }
+}
+
+impl Shared {
+    /// The queue of frames that end like this.
+    pub(crate) fn queue_of(&self, end: End) -> &Queue {
+        match end {
+            End::Swap => &self.queue,
+            End::Continued => &self.parts,
+        }
     }
 }
 
@@ -113,25 +154,4 @@ impl Drop for Shared {
 
 fn packed((width, height): (u32, u32)) -> u64 {
     u64::from(width) << 32 | u64::from(height)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_queue_holds_two_and_does_not_wait_for_nobody() {
-        let queue = Queue::default();
-        queue.enter(|| true);
-        queue.enter(|| true);
-        // Nobody serves it any more: it is full, and lets go.
-        queue.enter(|| false);
-        std::thread::scope(|scope| {
-            let third = scope.spawn(|| queue.enter(|| true));
-            queue.leave();
-            queue.leave();
-            third.join().unwrap();
-        });
-        assert_eq!(*queue.pending.lock(), 2);
-    }
 }

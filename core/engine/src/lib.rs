@@ -5,6 +5,7 @@
 //! queue holds two frames: a program that is faster waits at its buffer swap.
 
 mod drawable;
+mod life;
 mod message;
 mod port;
 mod thread;

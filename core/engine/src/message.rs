@@ -21,4 +21,6 @@ pub(crate) enum Message {
     Ask { group: u64, drawable: Drawable, frame: Frame, request: Request, reply: SyncSender<Reply> },
     /// Show what is drawn.
     Present { drawable: Drawable },
+    /// Wake up: the thread is to end.
+    Stop,
 }

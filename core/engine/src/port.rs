@@ -91,9 +91,7 @@ impl Port {
 impl Backend for Port {
     fn submit(&mut self, frame: Frame, end: End) {
         let Some(drawable) = self.draw() else { return };
-        if end == End::Swap && self.engine().is_alive() {
-            drawable.shared.queue.enter(|| self.engine().is_alive());
-        }
+        drawable.shared.queue_of(end).enter(|| self.engine().is_alive());
         self.engine().send(Message::Frame { group: self.group.shared.id, drawable, frame, end });
     }
 

@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
+use std::time::Duration;
 
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
@@ -12,9 +13,10 @@ use afterglow_render::{Mode, PathtraceOptions, RenderOptions, Renderer};
 use parking_lot::Mutex;
 
 use crate::drawable::{Drawable, Surface};
+use crate::life::{Ending, Life};
 use crate::message::Message;
 use crate::port::ShareGroup;
-use crate::window::Window;
+use crate::window::{Wanted, Window};
 use crate::xcb::Servers;
 
 /// Empty frames that are kept to be filled again.
@@ -53,12 +55,14 @@ pub struct Engine {
 
 struct Shared {
     sender: Mutex<mpsc::Sender<Message>>,
-    alive: Arc<AtomicBool>,
+    life: Arc<Life>,
     recycled: Arc<Mutex<Vec<Frame>>>,
     /// A forked process has no render thread.
     process: u32,
     last_id: AtomicU64,
     device: DeviceInfo,
+    /// Asked for the sizes of windows by threads that draw.
+    sizes: Mutex<Servers>,
 }
 
 impl Engine {
@@ -70,8 +74,8 @@ impl Engine {
         let (sender, receiver) = mpsc::channel();
         let (ready, is_ready) = mpsc::sync_channel(1);
         let recycled = Arc::<Mutex<Vec<Frame>>>::default();
-        let alive = Arc::new(AtomicBool::new(true));
-        let (frames, lives) = (recycled.clone(), alive.clone());
+        let life = Arc::new(Life::default());
+        let (frames, lives) = (recycled.clone(), life.clone());
         std::thread::Builder::new().name("afterglow-render".into()).spawn(move || {
             let opened = Gpu::new(&options.gpu).map(|gpu| {
                 let info = gpu.info().clone();
@@ -87,17 +91,18 @@ impl Engine {
                     return;
                 }
             };
-            let _guard = Ending(lives);
-            state.run(&receiver);
+            let ending = Ending(lives);
+            state.run(&receiver, &ending);
         })?;
         let device = is_ready.recv().map_err(|_| EngineError::Died)??;
         let shared = Shared {
             sender: Mutex::new(sender),
-            alive,
+            life,
             recycled,
             process: std::process::id(),
             last_id: AtomicU64::new(0),
             device,
+            sizes: Mutex::default(),
         };
         Ok(Self { shared: Arc::new(shared) })
     }
@@ -109,7 +114,16 @@ impl Engine {
 
     /// Whether the thread runs, in this process.
     pub fn is_alive(&self) -> bool {
-        self.shared.alive.load(Ordering::Relaxed) && self.shared.process == std::process::id()
+        !self.shared.life.has_ended() && self.shared.process == std::process::id()
+    }
+
+    /// Ends the thread after the frame that it draws, and waits for that, though not longer than `patience`.
+    pub fn stop(&self, patience: Duration) {
+        if self.is_alive() {
+            self.shared.life.want_end();
+            self.send(Message::Stop);
+            self.shared.life.wait_for_end(patience);
+        }
     }
 
     /// A new group of contexts.
@@ -120,8 +134,18 @@ impl Engine {
     /// Something to draw to, of this size at first.
     pub fn drawable(&self, surface: Surface, size: (u32, u32)) -> Drawable {
         let id = self.next_id();
-        self.send(Message::Drawable { drawable: id, surface });
-        Drawable::new(self.clone(), id, size)
+        self.send(Message::Drawable { drawable: id, surface: surface.clone() });
+        Drawable::new(self.clone(), id, surface, size)
+    }
+
+    /// Width and height of a window now, pixels. The answer is waited for, on a connection that is not the program's.
+    pub(crate) fn window_size(&self, surface: &Surface) -> Option<(u32, u32)> {
+        match surface {
+            Surface::X11 { display, window } if self.is_alive() => {
+                self.shared.sizes.lock().size(display, *window)
+            }
+            _ => None,
+        }
     }
 
     fn next_id(&self) -> u64 {
@@ -137,16 +161,11 @@ impl Engine {
 
     /// An empty frame, with the memory of an earlier one where possible.
     pub(crate) fn recycled(&self) -> Frame {
+        // In a forked process the lock may be held for ever.
+        if !self.is_alive() {
+            return Frame::default();
+        }
         self.shared.recycled.lock().pop().unwrap_or_default()
-    }
-}
-
-/// Says that the thread is gone, however it ended.
-struct Ending(Arc<AtomicBool>);
-
-impl Drop for Ending {
-    fn drop(&mut self) {
-        self.0.store(false, Ordering::Relaxed);
     }
 }
 
@@ -175,13 +194,13 @@ impl State {
         }
     }
 
-    /// Handles messages until nobody can send any more.
-    fn run(mut self, messages: &mpsc::Receiver<Message>) {
-        while let Ok(message) = messages.recv() {
+    /// Handles messages until nobody can send any more, or the thread is not wanted.
+    fn run(mut self, messages: &mpsc::Receiver<Message>, ending: &Ending) {
+        while let Ok(message) = messages.recv()
+            && ending.is_wanted()
+        {
             let (group, finished) = match &message {
-                Message::Frame { group, drawable, end, .. } => {
-                    (Some(*group), (*end == End::Swap).then(|| drawable.clone()))
-                }
+                Message::Frame { group, drawable, end, .. } => (Some(*group), Some((drawable.clone(), *end))),
                 Message::Ask { group, .. } => (Some(*group), None),
                 _ => (None, None),
             };
@@ -190,8 +209,8 @@ impl State {
                 // Whatever state it is in, it is not to be trusted.
                 group.map(|group| self.renderers.remove(&group));
             }
-            if let Some(drawable) = finished {
-                drawable.shared.queue.leave();
+            if let Some((drawable, end)) = finished {
+                drawable.shared.queue_of(end).leave();
             }
         }
     }
@@ -210,7 +229,11 @@ impl State {
             Message::Ask { group, drawable, frame, request, reply } => {
                 let _ = reply.send(self.answer(group, &drawable, frame, request));
             }
-            Message::Present { drawable } => self.present(&drawable),
+            Message::Present { drawable } => {
+                drawable.shared.is_presenting.store(false, Ordering::Release);
+                self.present(&drawable);
+            }
+            Message::Stop => {}
         }
     }
 
@@ -261,8 +284,8 @@ impl State {
         else {
             return;
         };
-        let waits_for_blank = drawable.swap_interval() != 0;
-        if let Some(size) = window.present(&self.gpu, &mut self.servers, renderer, waits_for_blank) {
+        let wanted = Wanted { waits_for_blank: drawable.swap_interval() != 0, size: drawable.size() };
+        if let Some(size) = window.present(&self.gpu, &mut self.servers, renderer, wanted) {
             drawable.set_size(size);
         }
     }

@@ -16,6 +16,24 @@ pub(crate) struct Window {
     has_failed: bool,
 }
 
+/// How a picture is to be shown.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted {
+    /// It waits for the screen's blank.
+    pub(crate) waits_for_blank: bool,
+    /// Width and height that the window has as far as is known, pixels.
+    pub(crate) size: (u32, u32),
+}
+
+impl Wanted {
+    /// Pictures of another size would be shown once before the window system finds them wrong.
+    fn is_served_by(self, swapchain: &Swapchain) -> bool {
+        let is_hidden = swapchain.size() == [0, 0];
+        let has_size = is_hidden || swapchain.size() == <[u32; 2]>::from(self.size);
+        has_size && swapchain.waits_for_blank() == self.waits_for_blank
+    }
+}
+
 impl Window {
     pub(crate) fn new(surface: Surface) -> Self {
         Self { surface, group: None, swapchain: None, has_failed: false }
@@ -27,19 +45,29 @@ impl Window {
         gpu: &Gpu,
         servers: &mut Servers,
         renderer: &mut Renderer,
-        waits_for_blank: bool,
+        wanted: Wanted,
     ) -> Option<(u32, u32)> {
         if self.has_failed || self.surface == Surface::None {
             return None;
         }
-        match self.show(gpu, servers, renderer, waits_for_blank) {
+        match self.show(gpu, servers, renderer, wanted) {
             Ok(size) => size,
             Err(error) => {
-                tracing::error!("nothing can be shown in a window: {error}");
+                // Programs destroy windows whose last pictures are still to be shown.
+                if self.is_there(servers) {
+                    tracing::error!("nothing can be shown in a window: {error}");
+                }
                 self.has_failed = true;
                 self.swapchain = None;
                 None
             }
+        }
+    }
+
+    fn is_there(&self, servers: &Servers) -> bool {
+        match &self.surface {
+            Surface::None => false,
+            Surface::X11 { display, window } => servers.has_window(display, *window),
         }
     }
 
@@ -48,17 +76,17 @@ impl Window {
         gpu: &Gpu,
         servers: &mut Servers,
         renderer: &mut Renderer,
-        waits_for_blank: bool,
+        wanted: Wanted,
     ) -> Result<Option<(u32, u32)>, GpuError> {
         let Surface::X11 { display, window } = &self.surface else { return Ok(None) };
-        if self.swapchain.as_ref().is_some_and(|chain| chain.waits_for_blank() != waits_for_blank) {
+        if self.swapchain.as_ref().is_some_and(|chain| !wanted.is_served_by(chain)) {
             self.swapchain = None;
         }
         let swapchain = match &mut self.swapchain {
             Some(swapchain) => swapchain,
             none => {
                 let surface = servers.surface(gpu, display, *window)?;
-                none.insert(gpu.swapchain(surface, waits_for_blank)?)
+                none.insert(gpu.swapchain(surface, wanted.waits_for_blank)?)
             }
         };
         let presented = renderer.present(swapchain)?;

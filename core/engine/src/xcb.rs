@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 
 use afterglow_gpu::{Gpu, GpuError, WindowSurface};
+use x11rb::errors::ReplyError;
+use x11rb::protocol::xproto::ConnectionExt;
 use x11rb::xcb_ffi::XCBConnection;
 
 /// Connections by the server's name. They are never closed: surfaces depend on them.
@@ -19,13 +21,32 @@ impl Servers {
         display: &str,
         window: u32,
     ) -> Result<WindowSurface, GpuError> {
-        if !self.connections.contains_key(display) {
-            let made = connect(display).map_err(|detail| GpuError::Invalid { what: "X server", detail })?;
-            self.connections.insert(display.to_owned(), made);
-        }
-        let connection = self.connections[display].get_raw_xcb_connection();
+        let connection = self
+            .connection(display)
+            .map_err(|detail| GpuError::Invalid { what: "X server", detail })?
+            .get_raw_xcb_connection();
         // SAFETY: connections live as long as the thread that owns all surfaces, and only it uses them.
         unsafe { gpu.xcb_surface(connection, window) }
+    }
+
+    /// Width and height of a window, pixels.
+    pub(crate) fn size(&mut self, display: &str, window: u32) -> Option<(u32, u32)> {
+        let answer = self.connection(display).ok()?.get_geometry(window).ok()?.reply().ok()?;
+        Some((answer.width.into(), answer.height.into()))
+    }
+
+    fn connection(&mut self, display: &str) -> Result<&XCBConnection, String> {
+        if !self.connections.contains_key(display) {
+            self.connections.insert(display.to_owned(), connect(display)?);
+        }
+        Ok(&self.connections[display])
+    }
+
+    /// Whether a server has such a window. `true` where that cannot be known.
+    pub(crate) fn has_window(&self, display: &str, window: u32) -> bool {
+        let Some(connection) = self.connections.get(display) else { return true };
+        let answer = connection.get_geometry(window).map(|cookie| cookie.reply());
+        !matches!(answer, Ok(Err(ReplyError::X11Error(_))))
     }
 }
 

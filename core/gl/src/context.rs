@@ -117,6 +117,16 @@ impl Context {
         self.hand_over(End::Swap);
     }
 
+    /// Hands over what has been recorded of a frame that goes on: before another context or drawable becomes current,
+    /// or where others must see it. Whether there was anything. Between Begin and End, nothing is handed over.
+    pub fn hand_over_so_far(&mut self) -> bool {
+        let has_any = !self.in_begin() && !self.frame.operations.is_empty();
+        if has_any {
+            self.hand_over(End::Continued);
+        }
+        has_any
+    }
+
     /// glGetError.
     pub fn get_error(&mut self) -> u32 {
         if self.in_begin() {

@@ -115,6 +115,24 @@ fn attribute(frame: &Frame, draw: &Draw, vertex: usize, slot: Slot) -> [f32; 4] 
 }
 
 #[test]
+fn a_frame_is_handed_over_in_parts() {
+    let (mut gl, recorder) = context();
+    assert!(!gl.hand_over_so_far());
+    triangle(&mut gl);
+    gl.begin(GL_TRIANGLES);
+    assert!(!gl.hand_over_so_far());
+    gl.end();
+    assert!(gl.hand_over_so_far());
+    assert!(!gl.hand_over_so_far());
+    triangle(&mut gl);
+    gl.swap_buffers();
+    let frames = recorder.0.lock().unwrap();
+    let ends: Vec<_> = frames.iter().map(|(frame, end)| (draws(frame).len(), *end)).collect();
+    assert_eq!(ends, [(1, End::Continued), (1, End::Swap)]);
+    assert!(frames.iter().all(|(frame, _)| frame.size == (64, 48)));
+}
+
+#[test]
 fn primitives_that_meet_the_same_state_become_one_draw() {
     let frame = frame(|gl| {
         triangle(gl);

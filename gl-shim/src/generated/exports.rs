@@ -145,8 +145,8 @@ exports! {
     fn glEndList() = with_context(gl) => gl.end_list();
     fn glEndQuery(target: u32) = with_context(gl) => gl.end_query(target);
     fn glEndQueryARB(target: u32) = with_context(gl) => gl.end_query(target);
-    fn glFinish() = with_context(gl) => gl.finish();
-    fn glFlush() = with_context(gl) => gl.flush();
+    fn glFinish() = with_context(gl) => special::finish(gl);
+    fn glFlush() = with_context(gl) => special::flush(gl);
     fn glFogCoordPointer(r#type: u32, stride: i32, pointer: *const c_void) = with_context(gl) => gl.fog_coord_pointer(r#type, stride, memory::pointer(pointer.cast()));
     fn glFogCoordPointerEXT(r#type: u32, stride: i32, pointer: *const c_void) = with_context(gl) => gl.fog_coord_pointer(r#type, stride, memory::pointer(pointer.cast()));
     fn glFogCoordd(coord: f64) = with_context_plainly(gl) => gl.fog_coord(number::float(coord));
@@ -561,7 +561,7 @@ exports! {
     fn glVertex4sv(v: *const i16) = with_context_plainly(gl) => { let [x, y, z, w] = memory::vector(v, number::float); gl.vertex([x, y, z, w]) };
     fn glVertexPointer(size: i32, r#type: u32, stride: i32, pointer: *const c_void) = with_context(gl) => gl.vertex_pointer(size, r#type, stride, memory::pointer(pointer.cast()));
     fn glVertexPointerEXT(size: i32, r#type: u32, stride: i32, count: i32, pointer: *const c_void) = with_context(gl) => gl.vertex_pointer(size, r#type, stride, memory::pointer(pointer.cast()));
-    fn glViewport(x: i32, y: i32, width: i32, height: i32) = with_context(gl) => gl.viewport(x, y, width, height);
+    fn glViewport(x: i32, y: i32, width: i32, height: i32) = with_context(gl) => special::viewport(gl, x, y, width, height);
     fn glWindowPos2d(x: f64, y: f64) = with_context(gl) => gl.window_pos([number::float(x), number::float(y), 0.0]);
     fn glWindowPos2dARB(x: f64, y: f64) = with_context(gl) => gl.window_pos([number::float(x), number::float(y), 0.0]);
     fn glWindowPos2dMESA(x: f64, y: f64) = with_context(gl) => gl.window_pos([number::float(x), number::float(y), 0.0]);

@@ -7,6 +7,7 @@ mod copies;
 mod pixels;
 mod queries;
 mod textures;
+mod window;
 
 pub use arrays::*;
 pub use compressed::*;
@@ -14,3 +15,4 @@ pub use copies::*;
 pub use pixels::*;
 pub use queries::*;
 pub use textures::*;
+pub use window::*;

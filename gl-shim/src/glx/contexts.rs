@@ -1,0 +1,161 @@
+//! Contexts that exist, by handle.
+
+use std::cell::UnsafeCell;
+use std::collections::HashMap;
+use std::ffi::c_void;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use afterglow_engine::{Port, ShareGroup};
+use afterglow_gl::backend::NullBackend;
+use afterglow_gl::{Context, SharedNames};
+use parking_lot::Mutex;
+
+use super::config::Config;
+use super::render;
+
+/// Contexts that exist at a time.
+const MOST_CONTEXTS: usize = 1024;
+/// Handles are no addresses; they are this far apart, and never come again.
+const HANDLE_STEP: usize = 16;
+
+/// Contexts that share names.
+pub struct Group {
+    names: SharedNames,
+    /// Nothing without a render thread.
+    pub shared: Option<ShareGroup>,
+}
+
+impl Group {
+    fn new() -> Self {
+        match render::engine() {
+            Some(engine) => {
+                let shared = engine.share_group();
+                Self { names: shared.names(), shared: Some(shared) }
+            }
+            None => Self { names: SharedNames::default(), shared: None },
+        }
+    }
+}
+
+/// A context.
+pub struct GlxContext {
+    /// What programs know it by.
+    pub handle: usize,
+    /// Its configuration.
+    pub config: &'static Config,
+    /// Whom it shares names with.
+    pub group: Arc<Group>,
+    /// Where its frames go; nothing without a render thread.
+    pub port: Option<Port>,
+    is_current: AtomicBool,
+    gl: UnsafeCell<Context>,
+}
+
+// SAFETY: `gl` is only used by the thread that has the context current (`claim`).
+unsafe impl Send for GlxContext {}
+// SAFETY: as above.
+unsafe impl Sync for GlxContext {}
+
+impl GlxContext {
+    fn new(handle: usize, config: &'static Config, group: Arc<Group>) -> Self {
+        let port = group.shared.as_ref().map(Port::new);
+        let gl = match &port {
+            Some(port) => Context::new(Box::new(port.clone()), group.names.clone()),
+            None => Context::new(Box::new(NullBackend), group.names.clone()),
+        };
+        Self { handle, config, group, port, is_current: AtomicBool::new(false), gl: UnsafeCell::new(gl) }
+    }
+
+    /// Makes the context the calling thread's alone; `false` if it is a thread's already.
+    pub fn claim(&self) -> bool {
+        self.is_current.compare_exchange(false, true, Ordering::Acquire, Ordering::Relaxed).is_ok()
+    }
+
+    /// Ends a claim.
+    pub fn release(&self) {
+        self.is_current.store(false, Ordering::Release);
+    }
+
+    /// The context itself, for the thread that has claimed it.
+    pub fn gl(&self) -> *mut Context {
+        self.gl.get()
+    }
+
+    /// Whether other contexts see its names.
+    pub fn is_shared(&self) -> bool {
+        Arc::strong_count(&self.group) > 1
+    }
+}
+
+static CONTEXTS: Mutex<Contexts> = Mutex::new(Contexts { by_handle: None, last: 0 });
+
+struct Contexts {
+    by_handle: Option<HashMap<usize, Arc<GlxContext>>>,
+    last: usize,
+}
+
+/// The context of a handle, which may be garbage.
+pub fn get(handle: *const c_void) -> Option<Arc<GlxContext>> {
+    CONTEXTS.lock().by_handle.as_ref()?.get(&(handle as usize)).cloned()
+}
+
+/// Makes a context that shares names with another one, unless that is null; nothing if that is garbage.
+pub fn create(config: &'static Config, share: *const c_void) -> Option<Arc<GlxContext>> {
+    let group = match share.is_null() {
+        true => Arc::new(Group::new()),
+        false => get(share)?.group.clone(),
+    };
+    let mut contexts = CONTEXTS.lock();
+    let Contexts { by_handle, last } = &mut *contexts;
+    let by_handle = by_handle.get_or_insert_default();
+    if by_handle.len() >= MOST_CONTEXTS {
+        return None;
+    }
+    *last += HANDLE_STEP;
+    let context = Arc::new(GlxContext::new(*last, config, group));
+    by_handle.insert(*last, context.clone());
+    Some(context)
+}
+
+/// Takes a context's handle away; the context lives on while it is current.
+pub fn destroy(handle: *const c_void) {
+    // Not in the statement's temporary: dropping a context takes other locks.
+    let removed = CONTEXTS.lock().by_handle.as_mut().and_then(|contexts| contexts.remove(&(handle as usize)));
+    drop(removed);
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ptr::{null, without_provenance};
+
+    use super::super::config::{Visual, all, keep};
+    use super::*;
+
+    #[test]
+    fn handles_come_and_go() {
+        let config = &keep(all(0, &[Visual { id: 0x93, depth: 24 }]))[0];
+        let garbage = without_provenance(0x1235);
+        assert!(get(garbage).is_none() && create(config, garbage).is_none());
+        destroy(garbage);
+        let first = create(config, null()).unwrap();
+        assert!(!first.is_shared());
+        let second = create(config, without_provenance(first.handle)).unwrap();
+        assert!(first.is_shared() && first.handle != second.handle);
+        destroy(without_provenance(second.handle));
+        drop(second);
+        assert!(!first.is_shared() && get(without_provenance(first.handle)).is_some());
+        destroy(without_provenance(first.handle));
+        assert!(get(without_provenance(first.handle)).is_none());
+    }
+
+    #[test]
+    fn one_thread_has_a_context() {
+        let config = &keep(all(0, &[Visual { id: 0x94, depth: 24 }]))[0];
+        let context = create(config, null()).unwrap();
+        assert!(context.claim() && !context.claim());
+        context.release();
+        assert!(context.claim());
+        destroy(without_provenance(context.handle));
+    }
+}

@@ -1,0 +1,236 @@
+//! Windows, pixmaps and pbuffers.
+
+use std::ffi::{c_int, c_uint, c_ulong, c_void};
+use std::sync::atomic::Ordering;
+
+use afterglow_api::constants::glx::*;
+
+use super::configs::of_visual;
+use super::put;
+use crate::boundary::guarded;
+use crate::glx::attributes::{self, value};
+use crate::glx::config::{self, Config, PBUFFER_EXTENT};
+use crate::glx::displays;
+use crate::glx::drawables::{self, Kind};
+use crate::glx::xlib::{self, Display, VisualInfo, Xid};
+
+/// The greatest swap interval that glXQueryDrawable tells.
+const MOST_INTERVAL: c_uint = 1;
+
+/// glXCreateWindow.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXCreateWindow(
+    display: *mut Display,
+    config: *const c_void,
+    window: Xid,
+    _: *const c_int,
+) -> Xid {
+    // SAFETY: the program vouches for its display.
+    guarded(|| unsafe { of_x(display, config::from_handle(config)?, window, Kind::Window { window }) })
+        .flatten()
+        .unwrap_or(0)
+}
+
+/// glXCreatePixmap.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXCreatePixmap(
+    display: *mut Display,
+    config: *const c_void,
+    pixmap: Xid,
+    _: *const c_int,
+) -> Xid {
+    // SAFETY: the program vouches for its display.
+    guarded(|| unsafe { of_x(display, config::from_handle(config)?, pixmap, Kind::Pixmap) })
+        .flatten()
+        .unwrap_or(0)
+}
+
+/// glXCreateGLXPixmap.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXCreateGLXPixmap(
+    display: *mut Display,
+    visual: *const VisualInfo,
+    pixmap: Xid,
+) -> Xid {
+    // SAFETY: the program vouches for display and visual.
+    guarded(|| unsafe { of_x(display, of_visual(display, visual)?, pixmap, Kind::Pixmap) })
+        .flatten()
+        .unwrap_or(0)
+}
+
+/// glXCreateGLXPixmapWithConfigSGIX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXCreateGLXPixmapWithConfigSGIX(
+    display: *mut Display,
+    config: *const c_void,
+    pixmap: Xid,
+) -> Xid {
+    // SAFETY: the same function.
+    unsafe { glXCreatePixmap(display, config, pixmap, std::ptr::null()) }
+}
+
+/// A drawable for something of X.
+///
+/// # Safety
+/// `display` is null or open.
+unsafe fn of_x(display: *mut Display, config: &'static Config, id: Xid, kind: Kind) -> Option<Xid> {
+    // SAFETY: the caller vouches for the display, which is not null from here on.
+    unsafe {
+        let server = displays::get(display)?.server.clone();
+        let size = xlib::get()?.size(display, id)?;
+        Some(drawables::create(display, kind, config, server, size))
+    }
+}
+
+/// glXCreatePbuffer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXCreatePbuffer(
+    display: *mut Display,
+    config: *const c_void,
+    list: *const c_int,
+) -> Xid {
+    guarded(|| {
+        // SAFETY: the program vouches for its list.
+        let wanted = unsafe { attributes::read(list, &[]) };
+        let get = |attribute| value(&wanted, attribute).unwrap_or(0);
+        let is_largest = get(GLX_LARGEST_PBUFFER) != 0;
+        // SAFETY: the program vouches for its display.
+        unsafe { pbuffer(display, config, get(GLX_PBUFFER_WIDTH), get(GLX_PBUFFER_HEIGHT), is_largest) }
+    })
+    .flatten()
+    .unwrap_or(0)
+}
+
+/// glXCreateGLXPbufferSGIX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXCreateGLXPbufferSGIX(
+    display: *mut Display,
+    config: *const c_void,
+    width: c_uint,
+    height: c_uint,
+    list: *const c_int,
+) -> Xid {
+    guarded(|| {
+        // SAFETY: the program vouches for its list.
+        let wanted = unsafe { attributes::read(list, &[]) };
+        let is_largest = value(&wanted, GLX_LARGEST_PBUFFER_SGIX).unwrap_or(0) != 0;
+        let extent = |size: c_uint| i32::try_from(size).unwrap_or(i32::MAX);
+        // SAFETY: the program vouches for its display.
+        unsafe { pbuffer(display, config, extent(width), extent(height), is_largest) }
+    })
+    .flatten()
+    .unwrap_or(0)
+}
+
+/// # Safety
+/// `display` is null or open.
+unsafe fn pbuffer(
+    display: *mut Display,
+    config: *const c_void,
+    width: i32,
+    height: i32,
+    is_largest: bool,
+) -> Option<Xid> {
+    let config = config::from_handle(config)?;
+    let is_possible = |size| (0..=PBUFFER_EXTENT).contains(&size);
+    if !(is_largest || is_possible(width) && is_possible(height)) {
+        return None;
+    }
+    let size = [width, height].map(|size| size.clamp(1, PBUFFER_EXTENT) as u32);
+    // SAFETY: the caller vouches for the display, which is not null from here on.
+    unsafe {
+        let server = displays::get(display)?.server.clone();
+        Some(drawables::create(display, Kind::Pbuffer, config, server, size.into()))
+    }
+}
+
+macro_rules! destroy {
+    ($($name:ident)*) => {$(
+        /// Takes the drawable's id away.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(display: *mut Display, drawable: Xid) {
+            guarded(|| drawables::destroy(display, drawable));
+        }
+    )*};
+}
+
+destroy! {
+    glXDestroyWindow glXDestroyPixmap glXDestroyGLXPixmap glXDestroyPbuffer glXDestroyGLXPbufferSGIX
+}
+
+/// glXQueryDrawable.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXQueryDrawable(
+    display: *mut Display,
+    drawable: Xid,
+    attribute: c_int,
+    value: *mut c_uint,
+) {
+    let result = guarded(|| {
+        // SAFETY: the program vouches for its display.
+        let found = unsafe { drawables::get_or_window(display, drawable) }?;
+        // SAFETY: as above; a null display has no drawables.
+        unsafe { found.refresh_size(display) };
+        let (width, height) = found.size();
+        Some(match attribute as u32 {
+            GLX_WIDTH => width,
+            GLX_HEIGHT => height,
+            GLX_PRESERVED_CONTENTS => 1,
+            GLX_LARGEST_PBUFFER => 0,
+            GLX_FBCONFIG_ID => found.config.map_or(0, |config| config.id as u32),
+            GLX_SWAP_INTERVAL_EXT => found.interval() as u32,
+            GLX_MAX_SWAP_INTERVAL_EXT => MOST_INTERVAL,
+            _ => return None,
+        })
+    });
+    if let Some(result) = result.flatten() {
+        // SAFETY: the program vouches for its pointer.
+        unsafe { put(value, result) };
+    }
+}
+
+/// glXQueryGLXPbufferSGIX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXQueryGLXPbufferSGIX(
+    display: *mut Display,
+    drawable: Xid,
+    attribute: c_int,
+    value: *mut c_uint,
+) {
+    // SAFETY: the same function.
+    unsafe { glXQueryDrawable(display, drawable, attribute, value) }
+}
+
+/// glXSelectEvent. The mask is kept; contents are never lost, so there are no events.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXSelectEvent(display: *mut Display, drawable: Xid, mask: c_ulong) {
+    guarded(|| {
+        // SAFETY: the program vouches for its display.
+        if let Some(found) = unsafe { drawables::get_or_window(display, drawable) } {
+            found.event_mask.store(mask as usize, Ordering::Relaxed);
+        }
+    });
+}
+
+/// glXSelectEventSGIX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXSelectEventSGIX(display: *mut Display, drawable: Xid, mask: c_ulong) {
+    // SAFETY: the same function.
+    unsafe { glXSelectEvent(display, drawable, mask) }
+}
+
+/// glXGetSelectedEvent.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXGetSelectedEvent(display: *mut Display, drawable: Xid, mask: *mut c_ulong) {
+    let found = guarded(|| drawables::get(display, drawable)).flatten();
+    let kept = found.map_or(0, |found| found.event_mask.load(Ordering::Relaxed));
+    // SAFETY: the program vouches for its pointer.
+    unsafe { put(mask, kept as c_ulong) };
+}
+
+/// glXGetSelectedEventSGIX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXGetSelectedEventSGIX(display: *mut Display, drawable: Xid, mask: *mut c_ulong) {
+    // SAFETY: the same function.
+    unsafe { glXGetSelectedEvent(display, drawable, mask) }
+}

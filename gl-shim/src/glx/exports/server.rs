@@ -1,0 +1,93 @@
+//! What there is: versions, extensions, addresses.
+
+use std::ffi::{CStr, c_char, c_int, c_void};
+use std::ptr::null;
+
+use afterglow_api::constants::glx::*;
+
+use super::put;
+use crate::boundary::guarded;
+use crate::glx::proc_address;
+use crate::glx::xlib::{self, Display};
+
+const EXTENSIONS: &CStr = c"GLX_ARB_create_context GLX_ARB_get_proc_address GLX_EXT_swap_control \
+GLX_EXT_visual_info GLX_EXT_visual_rating GLX_MESA_swap_control GLX_SGI_make_current_read GLX_SGI_swap_control \
+GLX_SGIX_fbconfig GLX_SGIX_pbuffer ";
+
+/// glXQueryExtension. Error and event codes are those of the server's own GLX, if it has it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXQueryExtension(
+    display: *mut Display,
+    error_base: *mut c_int,
+    event_base: *mut c_int,
+) -> c_int {
+    let codes = guarded(|| {
+        let (mut opcode, mut event, mut error) = (0, 0, 0);
+        if let Some(xlib) = xlib::get().filter(|_| !display.is_null()) {
+            // SAFETY: the program vouches for the display.
+            unsafe { (xlib.query_extension)(display, c"GLX".as_ptr(), &mut opcode, &mut event, &mut error) };
+        }
+        (error, event)
+    });
+    let (error, event) = codes.unwrap_or_default();
+    // SAFETY: the program vouches for its pointers.
+    unsafe { put(error_base, error) };
+    // SAFETY: as above.
+    unsafe { put(event_base, event) };
+    1
+}
+
+/// glXQueryVersion.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXQueryVersion(_: *mut Display, major: *mut c_int, minor: *mut c_int) -> c_int {
+    // SAFETY: the program vouches for its pointers.
+    unsafe { put(major, 1) };
+    // SAFETY: as above.
+    unsafe { put(minor, 4) };
+    1
+}
+
+/// glXQueryExtensionsString.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXQueryExtensionsString(_: *mut Display, _: c_int) -> *const c_char {
+    EXTENSIONS.as_ptr()
+}
+
+/// glXGetClientString.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXGetClientString(_: *mut Display, name: c_int) -> *const c_char {
+    string(name)
+}
+
+/// glXQueryServerString: nothing of the server is used.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXQueryServerString(_: *mut Display, _: c_int, name: c_int) -> *const c_char {
+    string(name)
+}
+
+fn string(name: c_int) -> *const c_char {
+    match name as u32 {
+        GLX_VENDOR => c"Afterglow".as_ptr(),
+        GLX_VERSION => c"1.4".as_ptr(),
+        GLX_EXTENSIONS => EXTENSIONS.as_ptr(),
+        _ => null(),
+    }
+}
+
+/// glXGetProcAddress.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXGetProcAddress(name: *const u8) -> *const c_void {
+    if name.is_null() {
+        return null();
+    }
+    // SAFETY: the program vouches for a string that ends.
+    let name = unsafe { CStr::from_ptr(name.cast()) };
+    guarded(|| proc_address::find(name)).flatten().unwrap_or(null())
+}
+
+/// glXGetProcAddressARB.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn glXGetProcAddressARB(name: *const u8) -> *const c_void {
+    // SAFETY: the same function.
+    unsafe { glXGetProcAddress(name) }
+}

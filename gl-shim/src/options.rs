@@ -1,0 +1,111 @@
+//! Options from the environment, and where log lines go.
+
+use std::io::IsTerminal;
+use std::sync::Once;
+
+use afterglow_engine::EngineOptions;
+use afterglow_gpu::GpuOptions;
+use afterglow_render::{Mode, PathtraceOptions};
+use tracing::level_filters::LevelFilter;
+
+/// Most samples a pixel and frame.
+const MOST_SAMPLES: u32 = 65536;
+
+/// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
+/// `AFTERGLOW_SPP` and `AFTERGLOW_SEED`. A value that is not understood is logged and counts as absent.
+pub fn engine() -> EngineOptions {
+    from_variables(&|name| std::env::var(name).ok())
+}
+
+fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
+    let mut pathtrace = PathtraceOptions::default();
+    let samples = parsed(variable, "AFTERGLOW_SPP", number).unwrap_or(pathtrace.spp);
+    pathtrace.spp = samples.clamp(1, MOST_SAMPLES);
+    pathtrace.seed = parsed(variable, "AFTERGLOW_SEED", number).unwrap_or(pathtrace.seed);
+    EngineOptions {
+        gpu: GpuOptions {
+            device: variable("AFTERGLOW_DEVICE").filter(|name| !name.is_empty()),
+            validation: parsed(variable, "AFTERGLOW_VALIDATION", flag).unwrap_or(false),
+            ..GpuOptions::default()
+        },
+        mode: parsed(variable, "AFTERGLOW_MODE", mode).unwrap_or(Mode::Pathtrace),
+        pathtrace,
+    }
+}
+
+fn parsed<T>(
+    variable: &dyn Fn(&str) -> Option<String>,
+    name: &str,
+    parse: impl Fn(&str) -> Option<T>,
+) -> Option<T> {
+    let value = variable(name).filter(|value| !value.is_empty())?;
+    let result = parse(&value);
+    if result.is_none() {
+        tracing::warn!("{name}: {value:?} is not understood");
+    }
+    result
+}
+
+fn mode(value: &str) -> Option<Mode> {
+    match value {
+        "raster" => Some(Mode::Raster),
+        "pathtrace" => Some(Mode::Pathtrace),
+        _ => None,
+    }
+}
+
+fn flag(value: &str) -> Option<bool> {
+    match value.to_ascii_lowercase().as_str() {
+        "1" | "true" | "yes" | "on" => Some(true),
+        "0" | "false" | "no" | "off" => Some(false),
+        _ => None,
+    }
+}
+
+fn number(value: &str) -> Option<u32> {
+    value.parse().ok()
+}
+
+/// Sends log lines of the level `AFTERGLOW_LOG` (`warn` if absent) and above to the standard error output. All calls
+/// but the first do nothing.
+pub fn start_log() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let level = std::env::var("AFTERGLOW_LOG").ok().and_then(|level| level.parse().ok());
+        let _ = tracing_subscriber::fmt()
+            .with_max_level(level.unwrap_or(LevelFilter::WARN))
+            .with_writer(std::io::stderr)
+            .with_ansi(std::io::stderr().is_terminal())
+            .log_internal_errors(false)
+            .try_init();
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_set_traces_paths() {
+        let options = from_variables(&|_| None);
+        assert_eq!(options.mode, Mode::Pathtrace);
+        assert!(!options.gpu.validation && options.gpu.device.is_none());
+    }
+
+    #[test]
+    fn what_is_not_understood_counts_as_absent() {
+        let options = from_variables(&|name| {
+            let value = match name {
+                "AFTERGLOW_MODE" => "raster",
+                "AFTERGLOW_VALIDATION" => "Yes",
+                "AFTERGLOW_SPP" => "0",
+                "AFTERGLOW_SEED" => "minus one",
+                _ => "",
+            };
+            Some(value.to_owned())
+        });
+        assert_eq!(options.mode, Mode::Raster);
+        assert!(options.gpu.validation && options.gpu.device.is_none());
+        assert_eq!((options.pathtrace.spp, options.pathtrace.seed), (1, 0));
+    }
+}

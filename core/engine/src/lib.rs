@@ -7,6 +7,7 @@
 mod drawable;
 mod life;
 mod message;
+mod pace;
 mod port;
 mod thread;
 mod window;

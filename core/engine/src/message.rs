@@ -1,6 +1,7 @@
 //! What the program's threads tell the render thread.
 
 use std::sync::mpsc::SyncSender;
+use std::time::Instant;
 
 use afterglow_gl::backend::{End, Reply, Request};
 use afterglow_gl::frame::Frame;
@@ -16,7 +17,7 @@ pub(crate) enum Message {
     /// Nobody holds the share group any more.
     DropGroup { group: u64 },
     /// A frame, or a part of one. A complete one takes a place in its drawable's queue.
-    Frame { group: u64, drawable: Drawable, frame: Frame, end: End },
+    Frame { group: u64, drawable: Drawable, frame: Frame, end: End, handed_over: Instant },
     /// The operations so far, and a question about the result.
     Ask { group: u64, drawable: Drawable, frame: Frame, request: Request, reply: SyncSender<Reply> },
     /// Show what is drawn.

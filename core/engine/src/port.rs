@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::mpsc;
+use std::time::Instant;
 
 use afterglow_gl::SharedNames;
 use afterglow_gl::backend::{Backend, End, Reply, Request};
@@ -92,7 +93,8 @@ impl Backend for Port {
     fn submit(&mut self, frame: Frame, end: End) {
         let Some(drawable) = self.draw() else { return };
         drawable.shared.queue_of(end).enter(|| self.engine().is_alive());
-        self.engine().send(Message::Frame { group: self.group.shared.id, drawable, frame, end });
+        let (group, handed_over) = (self.group.shared.id, Instant::now());
+        self.engine().send(Message::Frame { group, drawable, frame, end, handed_over });
     }
 
     fn answer(&mut self, so_far: Frame, request: Request) -> Reply {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
@@ -225,7 +225,13 @@ impl State {
                 self.renderers.values_mut().for_each(|renderer| renderer.forget(drawable));
             }
             Message::DropGroup { group } => drop(self.renderers.remove(&group)),
-            Message::Frame { group, drawable, frame, end } => self.frame(group, &drawable, frame, end),
+            Message::Frame { group, drawable, frame, end, handed_over } => {
+                self.frame(group, &drawable, frame, end);
+                if end == End::Swap {
+                    self.present(&drawable);
+                    self.note_pace(&drawable, handed_over);
+                }
+            }
             Message::Ask { group, drawable, frame, request, reply } => {
                 let _ = reply.send(self.answer(group, &drawable, frame, request));
             }
@@ -247,8 +253,15 @@ impl State {
                 recycled.push(empty);
             }
         }
-        if end == End::Swap {
-            self.present(drawable);
+    }
+
+    fn note_pace(&mut self, drawable: &Drawable, handed_over: Instant) {
+        let Some(window) = self.windows.get_mut(&drawable.shared.id) else { return };
+        if let Some((rate, latency)) = window.pace.shown(handed_over, Instant::now()) {
+            let (width, height) = drawable.size();
+            tracing::info!(
+                "{rate:.1} frames a second at {width}x{height}, {latency:.1} ms after the buffer swap"
+            );
         }
     }
 

@@ -1,9 +1,12 @@
 //! Drawables of the render thread: windows with their pictures.
 
+use std::time::Instant;
+
 use afterglow_gpu::{Gpu, GpuError, Presented, Swapchain};
 use afterglow_render::Renderer;
 
 use crate::drawable::Surface;
+use crate::pace::Pace;
 use crate::xcb::Servers;
 
 /// A drawable.
@@ -11,6 +14,7 @@ pub(crate) struct Window {
     surface: Surface,
     /// The share group that drew to it last.
     pub(crate) group: Option<u64>,
+    pub(crate) pace: Pace,
     swapchain: Option<Swapchain>,
     /// There is no way to show anything in it; that has been logged.
     has_failed: bool,
@@ -36,7 +40,7 @@ impl Wanted {
 
 impl Window {
     pub(crate) fn new(surface: Surface) -> Self {
-        Self { surface, group: None, swapchain: None, has_failed: false }
+        Self { surface, group: None, pace: Pace::new(Instant::now()), swapchain: None, has_failed: false }
     }
 
     /// Shows what a renderer, with this drawable selected, has drawn. Returns the window's size.

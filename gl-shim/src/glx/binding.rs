@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::ffi::c_void;
 use std::ptr::null_mut;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use afterglow_gl::Context;
@@ -30,12 +31,14 @@ pub struct Binding {
 }
 
 thread_local! {
-    static BINDING: RefCell<Option<Binding>> = const { RefCell::new(None) };
+    static BINDING: RefCell<Option<Rc<Binding>>> = const { RefCell::new(None) };
 }
 
 /// Calls `call` with what the calling thread has current; nothing if there is nothing.
 pub fn with<T>(call: impl FnOnce(&Binding) -> T) -> Option<T> {
-    BINDING.try_with(|binding| binding.borrow().as_ref().map(call)).ok().flatten()
+    // It is kept for the call: a signal handler of the program's may make another context current meanwhile.
+    let binding = BINDING.try_with(|binding| binding.borrow().clone()).ok().flatten()?;
+    Some(call(&binding))
 }
 
 /// As [`with`], with the context itself.
@@ -130,7 +133,8 @@ fn replace(make: impl FnOnce() -> Option<Binding>) -> bool {
     let replaced = BINDING.try_with(|slot| {
         let former = slot.borrow_mut().take();
         drop(former);
-        *slot.borrow_mut() = make();
+        let new = make().map(Rc::new);
+        *slot.borrow_mut() = new;
     });
     replaced.is_ok()
 }

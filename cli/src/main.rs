@@ -1,5 +1,6 @@
 //! Afterglow's command line.
 
+mod bench;
 mod compare;
 mod doctor;
 mod failure;
@@ -33,6 +34,8 @@ enum Command {
     Inspect(inspect::Arguments),
     /// Compare two pictures.
     Compare(compare::Arguments),
+    /// Measure what things cost.
+    Bench(bench::Arguments),
     /// Say whether this machine can run Afterglow, and on what.
     Doctor(doctor::Arguments),
     /// Print the folder that holds libGL.so.1, to be put first on LD_LIBRARY_PATH.
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         Command::Replay(arguments) => replay::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
+        Command::Bench(arguments) => bench::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Libdir => libdir::run(),
     };

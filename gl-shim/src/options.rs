@@ -17,6 +17,11 @@ pub fn engine() -> EngineOptions {
     from_variables(&|name| std::env::var(name).ok())
 }
 
+/// Whether nothing is to be drawn at all (`AFTERGLOW_NOOP`), to measure what calls cost.
+pub fn is_noop() -> bool {
+    parsed(&|name| std::env::var(name).ok(), "AFTERGLOW_NOOP", flag).unwrap_or(false)
+}
+
 fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
     let mut pathtrace = PathtraceOptions::default();
     let samples = parsed(variable, "AFTERGLOW_SPP", number).unwrap_or(pathtrace.spp);

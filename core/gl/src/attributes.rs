@@ -22,7 +22,7 @@ impl Context {
 
     /// glEnd.
     pub fn end(&mut self) {
-        let Some(mode) = self.immediate.mode.take() else {
+        let Some(mode) = self.immediate.end() else {
             return self.record_error(GL_INVALID_OPERATION);
         };
         if self.list.is_some() {
@@ -33,40 +33,55 @@ impl Context {
 
     /// Draws what Begin and End have gathered.
     pub(crate) fn draw_immediate(&mut self, mode: u32) {
-        let words = std::mem::take(&mut self.immediate.words);
+        let (buffer, used) = self.immediate.take();
         let edges = self.immediate.edges.take();
-        self.emit_primitive(mode, self.immediate.layout, &words, edges.as_deref());
-        self.immediate.words = words;
+        self.emit_primitive(mode, self.immediate.layout, &buffer[..used], edges.as_deref());
+        self.immediate.give_back(buffer);
     }
 
     /// glVertex.
-    #[inline]
-    pub fn vertex(&mut self, position: [f32; 4]) {
+    #[inline(always)]
+    pub fn vertex(&mut self, [x, y, z, w]: [f32; 4]) {
         if self.immediate.mode.is_some() {
-            self.immediate.vertex(position, self.state.current.edge_flag);
-        } else if let Some(list) = &mut self.list {
-            list.loose_vertex(position);
+            self.immediate.vertex([x, y, z, w], self.state.current.edge_flag);
+        } else {
+            self.loose_vertex(x, y, z, w);
+        }
+    }
+
+    /// A vertex outside of Begin and End: it counts only in a list that may be called inside.
+    #[cold]
+    fn loose_vertex(&mut self, x: f32, y: f32, z: f32, w: f32) {
+        if let Some(list) = &mut self.list {
+            list.loose_vertex([x, y, z, w]);
         }
     }
 
     /// All other attributes of vertices, by [`Slot`].
-    #[inline]
-    pub fn attribute(&mut self, slot: usize, value: [f32; 4]) {
-        if self.immediate.mode.is_some() {
-            self.immediate.attribute(slot, value, self.state.current.attributes[slot]);
+    // Components are moved one by one: an array that some path needs in memory would go through it on all of them.
+    #[inline(always)]
+    pub fn attribute(&mut self, slot: usize, [x, y, z, w]: [f32; 4]) {
+        self.immediate.attribute(slot, [x, y, z, w], &self.state.current.attributes[slot]);
+        if self.list.is_some() {
+            return self.attribute_in_list(slot, x, y, z, w);
         }
-        if let Some(list) = &mut self.list {
-            list.attribute(slot, value, self.immediate.mode.is_some());
-            if !list.executes {
-                return;
-            }
-        }
-        self.set_current(slot, value);
+        self.set_current(slot, [x, y, z, w]);
     }
 
-    #[inline]
-    pub(crate) fn set_current(&mut self, slot: usize, value: [f32; 4]) {
-        self.state.current.attributes[slot] = value;
+    #[cold]
+    fn attribute_in_list(&mut self, slot: usize, x: f32, y: f32, z: f32, w: f32) {
+        let value = [x, y, z, w];
+        let Some(list) = &mut self.list else { return };
+        list.attribute(slot, value, self.immediate.mode.is_some());
+        if list.executes {
+            self.set_current(slot, value);
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_current(&mut self, slot: usize, [x, y, z, w]: [f32; 4]) {
+        let current = &mut self.state.current.attributes[slot];
+        (current[0], current[1], current[2], current[3]) = (x, y, z, w);
         self.emitter.changed |= 1 << slot;
     }
 

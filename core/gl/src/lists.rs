@@ -144,9 +144,9 @@ impl ListBuilder {
         if late.is_empty() && !edges.contains(&false) {
             let mut indices = Vec::new();
             assemble::assemble(mode, immediate.count, |i| i as u32, &mut indices);
-            self.geometry(layout, kind, &immediate.words, &indices);
+            self.geometry(layout, kind, immediate.words(), &indices);
         } else {
-            let words = immediate.words.clone();
+            let words = immediate.words().to_vec();
             self.item(ListItem::Primitive(Box::new(ListPrimitive { mode, layout, words, edges, late })));
         }
         for slot in 0..SLOTS {

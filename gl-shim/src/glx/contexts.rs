@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use afterglow_engine::{Port, ShareGroup};
-use afterglow_gl::backend::NullBackend;
+use afterglow_gl::backend::{Discard, NullBackend};
 use afterglow_gl::{Context, SharedNames};
 use parking_lot::Mutex;
 
@@ -62,6 +62,7 @@ impl GlxContext {
         let port = group.shared.as_ref().map(Port::new);
         let gl = match &port {
             Some(port) => Context::new(Box::new(port.clone()), group.names.clone()),
+            None if render::is_noop() => Context::new(Box::<Discard>::default(), group.names.clone()),
             None => Context::new(Box::new(NullBackend), group.names.clone()),
         };
         Self { handle, config, group, port, is_current: AtomicBool::new(false), gl: UnsafeCell::new(gl) }

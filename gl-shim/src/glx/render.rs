@@ -22,10 +22,16 @@ static ENGINE: OnceLock<Option<Engine>> = OnceLock::new();
 /// The render thread; nothing if there is no device, which is said once.
 pub fn engine() -> Option<&'static Engine> {
     // Unit tests are about what a program sees without a device.
-    if cfg!(test) {
+    if cfg!(test) || is_noop() {
         return None;
     }
     ENGINE.get_or_init(|| guarded(start).flatten()).as_ref()
+}
+
+/// Whether this process draws nothing, to measure what calls cost.
+pub fn is_noop() -> bool {
+    static NOOP: OnceLock<bool> = OnceLock::new();
+    *NOOP.get_or_init(options::is_noop)
 }
 
 fn start() -> Option<Engine> {

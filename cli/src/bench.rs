@@ -1,0 +1,33 @@
+//! `afterglow bench`: what things cost, beside something real.
+
+mod gl;
+mod gl_client;
+mod xlib;
+
+use clap::{Args, Subcommand};
+
+use crate::failure::Failure;
+
+/// Arguments of `bench`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    /// What OpenGL calls cost a program's thread, beside Mesa's front end with nothing behind it. Needs an X server.
+    Gl(gl::Arguments),
+    /// One side of `gl`: measures the libGL that is found first, and prints the figures as JSON.
+    #[command(hide = true)]
+    GlClient(gl_client::Arguments),
+}
+
+/// Runs `bench`.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    match &arguments.what {
+        What::Gl(arguments) => gl::run(arguments),
+        What::GlClient(arguments) => gl_client::run(arguments),
+    }
+}

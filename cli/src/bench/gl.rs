@@ -41,13 +41,20 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (mut ours, mut mesa) = (Figures::default(), Figures::default());
     // In turn, so that what else the machine does meets both.
     for _ in 0..arguments.runs {
-        ours.keep_least(&measure(&[("LD_LIBRARY_PATH", &folder.to_string_lossy()), ("AFTERGLOW_NOOP", "1")])?);
+        ours.keep_least(&measure(&[
+            ("LD_LIBRARY_PATH", &folder.to_string_lossy()),
+            ("AFTERGLOW_NOOP", "1"),
+        ])?);
         mesa.keep_least(&measure(&[("GALLIUM_NOOP", "1"), ("LIBGL_ALWAYS_SOFTWARE", "1")])?);
     }
     let rows: Vec<Row> = CASES.iter().map(|case| row(case, &ours, &mesa)).collect();
     if arguments.json.as_deref() != Some(std::path::Path::new("-")) {
         output::print(|out| {
-            writeln!(out, "{:<28} {:>12} {:>12} {:>12} {:>7} {:>7}", "ns a call", "afterglow", "mesa", "memcpy", "ratio", "goal")?;
+            writeln!(
+                out,
+                "{:<28} {:>12} {:>12} {:>12} {:>7} {:>7}",
+                "ns a call", "afterglow", "mesa", "memcpy", "ratio", "goal"
+            )?;
             for row in &rows {
                 let copy = row.memcpy_ns.map_or("-".to_owned(), |ns| format!("{ns:.1}"));
                 let mark = if row.ratio <= row.goal { "" } else { "  not met" };
@@ -70,7 +77,15 @@ fn row(case: &super::gl_client::Case, ours: &Figures, mesa: &Figures) -> Row {
         Some(ns) => (ns, "memcpy"),
         None => (mesa_ns, "mesa"),
     };
-    Row { case: case.name, afterglow_ns, mesa_ns, memcpy_ns, ratio: afterglow_ns / base, ratio_to, goal: case.goal }
+    Row {
+        case: case.name,
+        afterglow_ns,
+        mesa_ns,
+        memcpy_ns,
+        ratio: afterglow_ns / base,
+        ratio_to,
+        goal: case.goal,
+    }
 }
 
 /// The figures of this program run as a client, in an environment with these variables.
@@ -79,7 +94,8 @@ fn measure(variables: &[(&str, &str)]) -> Result<Figures, Failure> {
     let program = std::env::current_exe().map_err(|error| failed(error.to_string()))?;
     let mut command = Command::new(program);
     command.args(["bench", "gl-client"]).env_remove("LD_LIBRARY_PATH");
-    let output = command.envs(variables.iter().copied()).output().map_err(|error| failed(error.to_string()))?;
+    let output =
+        command.envs(variables.iter().copied()).output().map_err(|error| failed(error.to_string()))?;
     if !output.status.success() {
         return Err(failed(String::from_utf8_lossy(&output.stderr).into_owned()));
     }

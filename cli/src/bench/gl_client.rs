@@ -194,7 +194,17 @@ impl Client<'_> {
             self.texture(&texels);
             let update = || {
                 let side = SIDE as i32;
-                (self.tex_sub_image)(TEXTURE_2D, 0, 0, 0, side, side, RGBA, UNSIGNED_BYTE, texels.as_ptr().cast());
+                (self.tex_sub_image)(
+                    TEXTURE_2D,
+                    0,
+                    0,
+                    0,
+                    side,
+                    side,
+                    RGBA,
+                    UNSIGNED_BYTE,
+                    texels.as_ptr().cast(),
+                );
             };
             add("glTexSubImage2D 256x256", self.time(100, update));
             add("memcpy of the array", copy_time(bytes, 100));
@@ -250,12 +260,14 @@ impl Client<'_> {
 /// Nanoseconds to copy so many bytes to memory that is not in a cache: each copy of a batch has its own place.
 fn copy_time(bytes: usize, batch: usize) -> f64 {
     let source = vec![1_u8; bytes];
-    let mut target = vec![0_u8; bytes * batch];
+    // Places that are apart by a power of two would share the same few lines of the cache.
+    let pitch = bytes + 4096 + 64;
+    let mut target = vec![0_u8; pitch * batch];
     let mut least = f64::INFINITY;
     for _ in 0..10 {
         let begun = Instant::now();
-        for place in target.chunks_exact_mut(bytes) {
-            place.copy_from_slice(black_box(&source));
+        for place in target.chunks_exact_mut(pitch) {
+            place[..bytes].copy_from_slice(black_box(&source));
         }
         least = least.min(begun.elapsed().as_nanos() as f64 / batch as f64);
         black_box(&mut target);

@@ -85,17 +85,8 @@ impl Stage {
     }
 }
 
-type CreateWindow = unsafe extern "C" fn(
-    Display,
-    c_ulong,
-    c_int,
-    c_int,
-    c_uint,
-    c_uint,
-    c_uint,
-    c_ulong,
-    c_ulong,
-) -> c_ulong;
+type CreateWindow =
+    unsafe extern "C" fn(Display, c_ulong, c_int, c_int, c_uint, c_uint, c_uint, c_ulong, c_ulong) -> c_ulong;
 
 unsafe fn load(name: &str) -> Result<Library, Failure> {
     // SAFETY: its initialisers are those that every program with this library runs.

@@ -20,6 +20,20 @@ pub fn is_mode(mode: u32) -> bool {
     mode <= GL_POLYGON
 }
 
+/// How many indices `count` vertices sent as `mode` become, if those of fewer vertices are the first of them.
+pub fn index_count(mode: u32, count: usize) -> Option<usize> {
+    Some(match mode {
+        GL_POINTS => count,
+        GL_LINES => count & !1,
+        GL_LINE_STRIP => 2 * count.saturating_sub(1),
+        GL_TRIANGLES => count / 3 * 3,
+        GL_TRIANGLE_STRIP | GL_TRIANGLE_FAN | GL_POLYGON => 3 * count.saturating_sub(2),
+        GL_QUADS => count / 4 * 6,
+        GL_QUAD_STRIP => count.saturating_sub(2) / 2 * 6,
+        _ => return None,
+    })
+}
+
 /// Appends the indices of `count` vertices sent as `mode`; `vertex(i)` is the index of the i-th.
 pub fn assemble(mode: u32, count: usize, vertex: impl Fn(usize) -> u32, out: &mut Vec<u32>) {
     let v = vertex;
@@ -104,6 +118,23 @@ pub fn assemble_unfilled(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_indices_of_fewer_vertices_come_first() {
+        for mode in (GL_POINTS..=GL_POLYGON).filter(|mode| *mode != GL_LINE_LOOP) {
+            let indices = |count| {
+                let mut out = Vec::new();
+                assemble(mode, count, |i| i as u32, &mut out);
+                out
+            };
+            for count in 0..13 {
+                let own = indices(count);
+                assert_eq!(index_count(mode, count), Some(own.len()), "mode {mode}, {count} vertices");
+                assert_eq!(indices(14)[..own.len()], own, "mode {mode}, {count} vertices");
+            }
+        }
+        assert_eq!(index_count(GL_LINE_LOOP, 3), None);
+    }
 
     fn indices(mode: u32, count: usize) -> Vec<u32> {
         let mut out = Vec::new();

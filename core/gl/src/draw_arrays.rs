@@ -17,6 +17,9 @@ use crate::limits;
 /// Retained ranges that are kept for arrays in buffer objects.
 const RANGES_KEPT: usize = 16384;
 
+/// Vertices from which it is worth while to copy them once.
+const MANY: usize = 64;
+
 /// Ranges made of buffer objects' content, by what they were made of.
 #[derive(Debug, Default)]
 pub struct RangeCache {
@@ -152,6 +155,9 @@ impl Context {
             let range = range.clone();
             return self.emit_retained(&range, kind);
         }
+        if key.is_none() && self.draw_in_order(mode, &selection) {
+            return;
+        }
         let mut words = std::mem::take(&mut self.scratch.words);
         let mut indices = std::mem::take(&mut self.scratch.assembled);
         if let Some(layout) = self.gather(first, count, &mut words) {
@@ -168,6 +174,17 @@ impl Context {
             }
         }
         (self.scratch.words, self.scratch.assembled) = (words, indices);
+    }
+
+    /// Draws many consecutive vertices of the program's memory: they are copied once, and their indices are shared.
+    /// `false` if they must go another way.
+    fn draw_in_order(&mut self, mode: u32, selection: &Selection) -> bool {
+        let Selection::Consecutive { first, count } = *selection else { return false };
+        if count < MANY || self.list.is_some() || !self.reaches(first, count) {
+            return false;
+        }
+        let layout = self.array_layout();
+        self.emit_in_order(mode, layout, count, |gl, words| gl.append_elements(layout, first, count, words))
     }
 
     /// Whether the key was noted before; notes it. Content that is drawn only once is not worth a range.
@@ -203,21 +220,44 @@ impl Context {
     /// arrays that end early give zeros: what they would give is undefined, and the rest of the draw is good.
     fn gather(&mut self, first: usize, count: usize, out: &mut Vec<u32>) -> Option<VertexLayout> {
         // Checked before memory is taken for what the arrays claim to hold.
-        self.with_elements(Slot::Position as usize, first, count, |e| (e.count == count).then_some(()))??;
-        let mut layout = VertexLayout::default();
-        for (slot, array) in self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.is_read()) {
-            layout = layout.with(slot, stored_format(array.size, array.kind, is_normalized(slot)));
+        if !self.reaches(first, count) {
+            return None;
         }
-        let stride = layout.stride();
+        let layout = self.array_layout();
         out.clear();
-        out.resize(count.checked_mul(stride)?, 0);
-        for slot in 0..SLOTS {
-            if self.client.arrays[slot].is_read() {
-                let (format, offset) = (layout.format(slot), layout.offset(slot));
-                self.with_elements(slot, first, count, |e| e.store(format, out, offset, stride));
-            }
-        }
+        self.append_elements(layout, first, count, out);
         Some(layout)
+    }
+
+    /// Whether the positions reach that far.
+    fn reaches(&self, first: usize, count: usize) -> bool {
+        self.with_elements(Slot::Position as usize, first, count, |e| e.count == count) == Some(true)
+    }
+
+    /// The layout of vertices from the arrays that are read.
+    fn array_layout(&self) -> VertexLayout {
+        let arrays = self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, array)| array.is_read());
+        arrays.fold(VertexLayout::default(), |layout, (slot, array)| {
+            layout.with(slot, stored_format(array.size, array.kind, is_normalized(slot)))
+        })
+    }
+
+    /// Appends `count` vertices from vertex `first` on.
+    fn append_elements(&self, layout: VertexLayout, first: usize, count: usize, out: &mut Vec<u32>) {
+        let stride = layout.stride();
+        let read = |slot: &usize| self.client.arrays[*slot].is_read();
+        if (0..SLOTS).filter(read).count() == 1
+            && self.with_elements(Slot::Position as usize, first, count, |e| e.append_packed(stride, out))
+                == Some(true)
+        {
+            return;
+        }
+        let start = out.len();
+        out.resize(start + count * stride, 0);
+        for slot in (0..SLOTS).filter(read) {
+            let (format, offset) = (layout.format(slot), layout.offset(slot));
+            self.with_elements(slot, first, count, |e| e.store(format, &mut out[start..], offset, stride));
+        }
     }
 
     /// Calls `f` with those of the elements `first` to `first + count` that an array has.

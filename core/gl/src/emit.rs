@@ -60,6 +60,9 @@ impl Kind {
     }
 }
 
+/// Modes of glBegin.
+const MODES: usize = GL_POLYGON as usize + 1;
+
 /// What was last written to the frame's tables.
 #[derive(Debug)]
 pub struct Emitter {
@@ -70,6 +73,8 @@ pub struct Emitter {
     kind: Kind,
     fixed_ids: HashMap<FixedState, u32>,
     ids: Ids,
+    /// By the mode of glBegin: where in the frame's indices those of vertices in a row are, and how many.
+    patterns: [(u32, u32); MODES],
     /// Dimension and base format of what each unit samples.
     realized: [Option<(Dimension, BaseFormat)>; TEXTURE_UNITS],
 }
@@ -97,6 +102,7 @@ impl Default for Emitter {
             kind: Kind::Points,
             fixed_ids: HashMap::new(),
             ids: Ids::default(),
+            patterns: [(0, 0); MODES],
             realized: [None; TEXTURE_UNITS],
         }
     }
@@ -108,6 +114,7 @@ impl Emitter {
         self.dirty = Dirty::all();
         self.changed = u16::MAX;
         self.fixed_ids.clear();
+        self.patterns = [(0, 0); MODES];
     }
 }
 
@@ -152,6 +159,38 @@ impl Context {
             _ => assemble::assemble(mode, count, |i| base + i as u32, &mut self.frame.indices),
         }
         self.finish_draw(first_index, layout, kind, count);
+    }
+
+    /// Draws many vertices that `fill` appends to the frame's words, one after the other, sent as `mode`. `false`: such
+    /// vertices must go another way.
+    pub(crate) fn emit_in_order(
+        &mut self,
+        mode: u32,
+        layout: VertexLayout,
+        count: usize,
+        fill: impl FnOnce(&Self, &mut Vec<u32>),
+    ) -> bool {
+        let kind = Kind::of(mode, self.effective_polygon_mode());
+        let Some(index_count) = assemble::index_count(mode, count) else { return false };
+        if matches!(kind, Kind::Polygons(PolygonMode::Line | PolygonMode::Point)) {
+            return false;
+        }
+        if index_count == 0 || !self.prepare(layout, kind, count) {
+            return true;
+        }
+        let mut words = std::mem::take(&mut self.frame.words);
+        let first_word = words.len() as u32;
+        fill(self, &mut words);
+        self.frame.words = words;
+        let (mut first_index, known) = self.emitter.patterns[mode as usize];
+        if (known as usize) < index_count {
+            first_index = self.frame.indices.len() as u32;
+            assemble::assemble(mode, count, |i| i as u32, &mut self.frame.indices);
+            self.emitter.patterns[mode as usize] = (first_index, index_count as u32);
+        }
+        let source = VertexSource::Arena { first_word, vertices: count as u32, first_index };
+        self.push_draw(source, layout, kind, index_count as u32);
+        true
     }
 
     /// Draws vertices with indices that are assembled already, as a list or an array draw has them.
@@ -199,20 +238,28 @@ impl Context {
     fn extend_vertices(&mut self, layout: VertexLayout, kind: Kind, words: &[u32]) -> u32 {
         let end = self.frame.words.len() as u32;
         self.frame.words.extend_from_slice(words);
-        match self.continued_draw(layout, kind, end) {
+        match self.continued_draw(layout, kind, end, self.frame.indices.len()) {
             Some(VertexSource::Arena { vertices, .. }) => *vertices,
             _ => 0,
         }
     }
 
-    /// The vertices of the last draw, if it meets the same state and ends where the frame's words did.
-    fn continued_draw(&mut self, layout: VertexLayout, kind: Kind, end: u32) -> Option<&mut VertexSource> {
+    /// The vertices of the last draw, if it meets the same state and ends where the frame's words and indices did.
+    fn continued_draw(
+        &mut self,
+        layout: VertexLayout,
+        kind: Kind,
+        end: u32,
+        indices_end: usize,
+    ) -> Option<&mut VertexSource> {
         let ids = self.emitter.ids;
         let Some(Operation::Draw(draw)) = self.frame.operations.last_mut() else { return None };
         let same = draw.layout == layout && draw.topology == kind.topology() && Ids::of(draw) == ids;
         match draw.source {
-            VertexSource::Arena { first_word, vertices, .. }
-                if same && first_word + vertices * layout.stride() as u32 == end =>
+            VertexSource::Arena { first_word, vertices, first_index }
+                if same
+                    && first_word + vertices * layout.stride() as u32 == end
+                    && (first_index + draw.index_count) as usize == indices_end =>
             {
                 Some(&mut draw.source)
             }
@@ -223,7 +270,9 @@ impl Context {
     fn finish_draw(&mut self, first_index: usize, layout: VertexLayout, kind: Kind, count: usize) {
         let added = (self.frame.indices.len() - first_index) as u32;
         let first_word = (self.frame.words.len() - count * layout.stride()) as u32;
-        if let Some(VertexSource::Arena { vertices, .. }) = self.continued_draw(layout, kind, first_word) {
+        if let Some(VertexSource::Arena { vertices, .. }) =
+            self.continued_draw(layout, kind, first_word, first_index)
+        {
             *vertices += count as u32;
             if let Some(Operation::Draw(draw)) = self.frame.operations.last_mut() {
                 draw.index_count += added;

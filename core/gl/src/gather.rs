@@ -86,6 +86,18 @@ impl Elements<'_> {
         }
     }
 
+    /// Appends them to vertices of `stride` words that consist of them alone, if they lie in memory as they are stored.
+    /// Says whether it did.
+    pub fn append_packed(&self, stride: usize, out: &mut Vec<u32>) -> bool {
+        let is_packed =
+            self.shape.kind == GL_FLOAT && self.shape.size == stride && self.shape.stride == 4 * stride;
+        if is_packed {
+            let (words, _) = self.bytes[..4 * stride * self.count].as_chunks::<4>();
+            out.extend(words.iter().map(|bytes| u32::from_le_bytes(*bytes)));
+        }
+        is_packed
+    }
+
     /// The first, missing components from (0, 0, 0, 1); `None` if there is none.
     pub fn first(&self) -> Option<[f32; 4]> {
         let mut value = [0.0, 0.0, 0.0, 1.0];

@@ -1,86 +1,21 @@
-//! What is recorded of a program's calls, on a context without a device.
-//!
-//! One test, since there is one recording a process.
-
-#![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
+//! Parts of a program, each with what it is recorded as.
 
 use std::ffi::c_void;
-use std::path::Path;
-use std::process::Command;
-use std::ptr::{null, null_mut};
+use std::ptr::null;
 
-use GL::{current, record};
+use GL::record;
 use afterglow_api::constants::*;
 use afterglow_api::id;
-use afterglow_gl::backend::NullBackend;
-use afterglow_gl::{Context, SharedNames};
-use afterglow_trace::dump::CallLine;
-use afterglow_trace::{Call, TraceReader};
 use record::glx::{Value, Visual};
 
-unsafe extern "system" {
-    fn glBegin(mode: u32);
-    fn glEnd();
-    fn glColor4ub(red: u8, green: u8, blue: u8, alpha: u8);
-    fn glVertex3f(x: f32, y: f32, z: f32);
-    fn glTexCoord2fv(v: *const f32);
-    fn glLoadMatrixd(m: *const f64);
-    fn glGenTextures(n: i32, textures: *mut u32);
-    fn glBindTexture(target: u32, texture: u32);
-    fn glTexParameteri(target: u32, pname: u32, param: i32);
-    fn glTexEnvfv(target: u32, pname: u32, params: *const f32);
-    fn glPixelStorei(pname: u32, param: i32);
-    fn glTexImage2D(
-        target: u32,
-        level: i32,
-        internal_format: i32,
-        width: i32,
-        height: i32,
-        border: i32,
-        format: u32,
-        kind: u32,
-        pixels: *const c_void,
-    );
-    fn glGenLists(range: i32) -> u32;
-    fn glNewList(list: u32, mode: u32);
-    fn glEndList();
-    fn glCallLists(n: i32, kind: u32, lists: *const c_void);
-    fn glClear(mask: u32);
-    fn glGetIntegerv(pname: u32, params: *mut i32);
-    fn glGetString(name: u32) -> *const u8;
-    fn glGetError() -> u32;
-    fn glIsEnabled(cap: u32) -> u8;
-    fn glMap1f(target: u32, u1: f32, u2: f32, stride: i32, order: i32, points: *const f32);
-    fn glEnableClientState(array: u32);
-    fn glDisableClientState(array: u32);
-    fn glVertexPointer(size: i32, kind: u32, stride: i32, pointer: *const c_void);
-    fn glTexCoordPointer(size: i32, kind: u32, stride: i32, pointer: *const c_void);
-    fn glClientActiveTexture(texture: u32);
-    fn glInterleavedArrays(format: u32, stride: i32, pointer: *const c_void);
-    fn glArrayElement(i: i32);
-    fn glDrawArrays(mode: u32, first: i32, count: i32);
-    fn glDrawElements(mode: u32, count: i32, kind: u32, indices: *const c_void);
-    fn glMultiDrawElements(
-        mode: u32,
-        count: *const i32,
-        kind: u32,
-        indices: *const *const c_void,
-        draws: i32,
-    );
-    fn glLockArraysEXT(first: i32, count: i32);
-    fn glUnlockArraysEXT();
-    fn glBindBufferARB(target: u32, buffer: u32);
-    fn glBufferDataARB(target: u32, size: isize, data: *const c_void, usage: u32);
-    fn glMapBufferARB(target: u32, access: u32) -> *mut c_void;
-    fn glUnmapBufferARB(target: u32) -> u8;
-}
+use crate::entry_points::*;
 
 /// Numbers as memory.
 fn memory<T>(values: &[T]) -> *const c_void {
     values.as_ptr().cast()
 }
 
-fn immediate_mode() {
+pub fn immediate_mode() {
     // SAFETY: the pointers are good.
     unsafe {
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -93,7 +28,7 @@ fn immediate_mode() {
     }
 }
 
-const IMMEDIATE_MODE: &[&str] = &[
+pub const IMMEDIATE_MODE: &[&str] = &[
     "glClear(mask = GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT)",
     "glLoadMatrixd(m = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5})",
     "glBegin(mode = GL_POINTS)",
@@ -103,7 +38,7 @@ const IMMEDIATE_MODE: &[&str] = &[
     "glEnd()",
 ];
 
-fn textures_and_lists() {
+pub fn textures_and_lists() {
     let image = [1u8, 2, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 5, 6, 7, 8];
     let mut name = 0;
     // SAFETY: the image ends with the last texel that is read.
@@ -123,7 +58,7 @@ fn textures_and_lists() {
     }
 }
 
-const TEXTURES_AND_LISTS: &[&str] = &[
+pub const TEXTURES_AND_LISTS: &[&str] = &[
     "glGenTextures(n = 1, textures = &1)",
     "glBindTexture(target = GL_TEXTURE_2D, texture = 1)",
     "glTexParameteri(target = GL_TEXTURE_2D, pname = GL_TEXTURE_MIN_FILTER, param = GL_LINEAR)",
@@ -140,7 +75,7 @@ const TEXTURES_AND_LISTS: &[&str] = &[
     "glCallLists(n = 2, type = GL_UNSIGNED_SHORT, lists = blob(4))",
 ];
 
-fn queries() {
+pub fn queries() {
     let mut viewport = [0; 4];
     // SAFETY: there is room.
     unsafe {
@@ -155,7 +90,7 @@ fn queries() {
 /// Not in the scope of this library, and so an error.
 const GL_SHADING_LANGUAGE_VERSION_ARB: u32 = 0x8b8c;
 
-const QUERIES: &[&str] = &[
+pub const QUERIES: &[&str] = &[
     "glGetIntegerv(pname = GL_VIEWPORT, params = {0, 0, 64, 48})",
     "glGetString(name = GL_SHADING_LANGUAGE_VERSION) = NULL",
     "glIsEnabled(cap = GL_LIGHTING) = GL_FALSE",
@@ -163,7 +98,7 @@ const QUERIES: &[&str] = &[
     "glGetError() = GL_INVALID_ENUM",
 ];
 
-fn arrays_in_memory() {
+pub fn arrays_in_memory() {
     let vertices = [0.0f32; 40];
     // SAFETY: there are ten vertices.
     unsafe {
@@ -188,7 +123,7 @@ fn arrays_in_memory() {
     }
 }
 
-const ARRAYS_IN_MEMORY: &[&str] = &[
+pub const ARRAYS_IN_MEMORY: &[&str] = &[
     "glEnableClientState(array = GL_VERTEX_ARRAY)",
     "glVertexPointer(size = 3, type = GL_FLOAT, stride = 16, pointer = blob(60)) // fake",
     "glDrawArrays(mode = GL_TRIANGLES, first = 1, count = 3)",
@@ -221,12 +156,12 @@ const ARRAYS_IN_MEMORY: &[&str] = &[
     "glDisableClientState(array = GL_COLOR_ARRAY) // fake",
     "glEnableClientState(array = GL_NORMAL_ARRAY) // fake",
     "glEnableClientState(array = GL_VERTEX_ARRAY) // fake",
-    "glVertexPointer(size = 3, type = GL_FLOAT, stride = 24, pointer = blob(36)) // fake",
     "glNormalPointer(type = GL_FLOAT, stride = 24, pointer = blob(36)) // fake",
+    "glVertexPointer(size = 3, type = GL_FLOAT, stride = 24, pointer = blob(36)) // fake",
     "glDrawArrays(mode = GL_POINTS, first = 0, count = 2)",
 ];
 
-fn buffers() {
+pub fn buffers() {
     // SAFETY: four bytes are mapped.
     unsafe {
         glDisableClientState(GL_NORMAL_ARRAY);
@@ -241,7 +176,7 @@ fn buffers() {
     }
 }
 
-const BUFFERS: &[&str] = &[
+pub const BUFFERS: &[&str] = &[
     "glDisableClientState(array = GL_NORMAL_ARRAY)",
     "glBindBufferARB(target = GL_ARRAY_BUFFER, buffer = 1)",
     "glBufferDataARB(target = GL_ARRAY_BUFFER, size = 4, data = blob(4), usage = GL_STATIC_DRAW)",
@@ -253,7 +188,7 @@ const BUFFERS: &[&str] = &[
     "glUnmapBufferARB(target = GL_ARRAY_BUFFER) = GL_FALSE",
 ];
 
-fn window_system() {
+pub fn window_system() {
     let visual = Visual { visual: 0x10, visual_id: 33, depth: 24, class: 4, ..Visual::default() };
     let (display, arguments) = (Value::Pointer(0x20), [4, 5, 8, 1, 0]);
     let attributes = Value::VisualAttributes(Some(&arguments));
@@ -269,7 +204,7 @@ fn window_system() {
     record::glx::call(id::glXSwapBuffers, &[(0, display), (1, Value::Id(7))], &[], None);
 }
 
-const WINDOW_SYSTEM: &[&str] = &[
+pub const WINDOW_SYSTEM: &[&str] = &[
     "glXChooseVisual(dpy = 0x20, screen = 0, attribList = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 1, 0}) = \
      &{visual = 0x10, visualid = 33, screen = 0, depth = 24, c_class = 4, red_mask = 0, green_mask = 0, \
      blue_mask = 0, colormap_size = 0, bits_per_rgb = 0}",
@@ -278,83 +213,3 @@ const WINDOW_SYSTEM: &[&str] = &[
     "glScissor(x = 0, y = 0, width = 64, height = 48) // fake",
     "glXSwapBuffers(dpy = 0x20, drawable = 7)",
 ];
-
-/// The calls in a file, without their numbers and addresses of this process.
-fn lines(path: &Path) -> Vec<String> {
-    let mut reader = TraceReader::open(path).unwrap();
-    let (mut call, mut lines) = (Call::default(), Vec::new());
-    while reader.next_call(&mut call).unwrap() {
-        assert!(call.complete);
-        let line = CallLine::new(&call, reader.signatures()).to_string();
-        let line = line.split_once(' ').unwrap().1;
-        let words = line.split(' ').map(|word| match word.trim_end_matches(',') {
-            address if address.starts_with("0x") && address.len() > 8 => word.replace(address, "ADDRESS"),
-            _ => word.to_owned(),
-        });
-        lines.push(words.collect::<Vec<_>>().join(" "));
-    }
-    lines
-}
-
-#[test]
-fn calls_are_recorded_with_what_they_read_and_give() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("calls.trace");
-    record::start(&path).unwrap();
-    // SAFETY: no pointers.
-    unsafe { glIsEnabled(GL_LIGHTING) };
-    let mut context = Context::new(Box::new(NullBackend), SharedNames::default());
-    context.set_drawable(64, 48);
-    current::set(&mut context);
-    for part in [immediate_mode, textures_and_lists, queries, arrays_in_memory, buffers, window_system] {
-        part();
-    }
-    // The swap has brought the file up to date.
-    let recorded = lines(&path);
-    immediate_mode();
-    record::stop();
-    immediate_mode();
-    current::set(null_mut());
-
-    let parts = [IMMEDIATE_MODE, TEXTURES_AND_LISTS, QUERIES, ARRAYS_IN_MEMORY, BUFFERS, WINDOW_SYSTEM];
-    let without_context = ["glIsEnabled(cap = GL_LIGHTING) = GL_FALSE"];
-    let expected: Vec<&str> = without_context.into_iter().chain(parts.concat()).collect();
-    for (recorded, expected) in recorded.iter().zip(&expected) {
-        assert_eq!(recorded, expected);
-    }
-    assert_eq!(recorded.len(), expected.len());
-    assert_eq!(lines(&path).len(), expected.len() + IMMEDIATE_MODE.len());
-    check_blobs(&path);
-    check_with_apitrace(&path);
-}
-
-fn check_blobs(path: &Path) {
-    let mut reader = TraceReader::open(path).unwrap();
-    let mut call = Call::default();
-    let mut found = 0;
-    while reader.next_call(&mut call).unwrap() {
-        let name = &*reader.signature(call.signature).name;
-        let expected: &[u8] = match name {
-            "memcpy" => &[9, 2, 3, 4],
-            "glBufferDataARB" => &[1, 2, 3, 4],
-            "glCallLists" => &[1, 0, 2, 0],
-            _ => continue,
-        };
-        let blob = call.args.iter().find_map(|value| value.as_blob()).unwrap();
-        assert_eq!(**blob, *expected, "{name}");
-        found += 1;
-    }
-    assert_eq!(found, 3);
-}
-
-/// apitrace's own reader takes the file, if there is one.
-fn check_with_apitrace(path: &Path) {
-    let Ok(output) = Command::new("apitrace").args(["dump", "--color=never"]).arg(path).output() else {
-        return;
-    };
-    assert!(output.status.success());
-    let text = String::from_utf8(output.stdout).unwrap();
-    for line in IMMEDIATE_MODE.iter().chain(TEXTURES_AND_LISTS).chain(WINDOW_SYSTEM) {
-        assert!(text.contains(line), "{line}");
-    }
-}

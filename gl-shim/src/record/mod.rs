@@ -20,6 +20,7 @@ use std::cell::Cell;
 use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::time::Duration;
 
 use afterglow_api::CommandId;
 use afterglow_gl::Context;
@@ -33,6 +34,9 @@ use recorder::Recorder;
 
 /// What the environment calls the file.
 const VARIABLE: &str = "AFTERGLOW_RECORD";
+
+/// How long the end of the process waits for another thread's call.
+const EXIT_WAITS: Duration = Duration::from_millis(500);
 
 /// Set until the environment has been asked, and while calls are recorded.
 static ON: AtomicBool = AtomicBool::new(true);
@@ -64,7 +68,10 @@ pub fn start(path: &Path) -> io::Result<()> {
 
 /// Ends the recording, and brings the file up to date.
 pub fn stop() {
-    let mut state = STATE.lock();
+    end(STATE.lock());
+}
+
+fn end(mut state: MutexGuard<State>) {
     if let State::On(recorder) = &mut *state {
         recorder.flush();
     }
@@ -76,15 +83,28 @@ pub fn stop() {
 ///
 /// # Safety
 /// Pointers among the arguments are what the specification of the command wants.
+#[inline(always)]
 pub(crate) unsafe fn call<R: Bits>(id: CommandId, arguments: &[u64], run: impl FnOnce() -> R) -> R {
     // SAFETY: the contract is the same.
-    let entered = guarded(|| unsafe { enter(id, arguments) }).flatten();
+    let entered = unsafe { before(id, arguments) };
     let result = run();
     if let Some(entered) = entered {
         // SAFETY: the contract is the same; what the command writes is written.
-        guarded(|| unsafe { leave(entered, id, arguments, result.bits()) });
+        unsafe { after(entered, id, arguments, result.bits()) };
     }
     result
+}
+
+#[inline(never)]
+unsafe fn before(id: CommandId, arguments: &[u64]) -> Option<Entered> {
+    // SAFETY: the contract is the same.
+    guarded(|| unsafe { enter(id, arguments) }).flatten()
+}
+
+#[inline(never)]
+unsafe fn after(entered: Entered, id: CommandId, arguments: &[u64], result: u64) {
+    // SAFETY: the contract is the same.
+    guarded(|| unsafe { leave(entered, id, arguments, result) });
 }
 
 /// What is to be recorded when a command is left.
@@ -187,7 +207,8 @@ fn flush_at_exit() {
         fn atexit(callback: extern "C" fn()) -> std::ffi::c_int;
     }
     extern "C" fn at_exit() {
-        guarded(stop);
+        // A program may exit in a signal handler that interrupted this very thread amid a call.
+        guarded(|| STATE.try_lock_for(EXIT_WAITS).map(end));
     }
     // SAFETY: the function stays as long as the library; it is called before the library goes.
     unsafe { atexit(at_exit) };

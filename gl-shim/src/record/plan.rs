@@ -23,6 +23,8 @@ pub enum Kind {
     /// glBitmap's image, of these sizes.
     Bitmap(&'static [u8]),
     Stipple,
+    /// Control points of an evaluator, of so many dimensions.
+    Points(Number, usize),
     /// glCallLists: count and type of names.
     Lists(usize, usize),
     /// Indices of a draw: count and type.
@@ -165,6 +167,8 @@ fn computed(
     match (canonical, of, number) {
         (id::glBitmap, ..) => Kind::Bitmap(of),
         (id::glPolygonStipple, ..) => Kind::Stipple,
+        (id::glMap1d | id::glMap1f, _, Some(number)) => Kind::Points(number, 1),
+        (id::glMap2d | id::glMap2f, _, Some(number)) => Kind::Points(number, 2),
         (id::glCallLists, &[count, kind], _) => Kind::Lists(count.into(), kind.into()),
         (id::glDrawElements | id::glDrawRangeElements, &[count, kind], _) => {
             Kind::Indices(count.into(), kind.into())

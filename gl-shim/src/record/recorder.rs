@@ -142,6 +142,9 @@ impl Recorder {
                 Kind::Image(of) => self.bytes(bits, gl.and_then(|gl| sizes::image(gl, of, arguments))),
                 Kind::Bitmap(of) => self.bytes(bits, gl.and_then(|gl| sizes::bitmap(gl, of, arguments))),
                 Kind::Stipple => self.bytes(bits, gl.and_then(|gl| sizes::bitmap(gl, &[0, 1], &[32, 32]))),
+                Kind::Points(number, dimensions) => {
+                    self.array(number, bits, sizes::points(dimensions, arguments), None);
+                }
                 Kind::Lists(count, kind) => {
                     let size = list_offset_bytes(arguments[kind] as u32);
                     self.bytes(bits, size.map(|size| natural(arguments[count]).saturating_mul(size)));

@@ -55,6 +55,24 @@ pub fn natural(bits: u64) -> usize {
     usize::try_from(bits as i64).unwrap_or(0)
 }
 
+/// Numbers of an evaluator's control points: of target, and for each dimension two bounds, stride and order.
+pub fn points(dimensions: usize, arguments: &[u64]) -> usize {
+    let components = match arguments[0] as u32 {
+        GL_MAP1_INDEX | GL_MAP2_INDEX | GL_MAP1_TEXTURE_COORD_1 | GL_MAP2_TEXTURE_COORD_1 => 1,
+        GL_MAP1_TEXTURE_COORD_2 | GL_MAP2_TEXTURE_COORD_2 => 2,
+        GL_MAP1_COLOR_4 | GL_MAP2_COLOR_4 | GL_MAP1_VERTEX_4 | GL_MAP2_VERTEX_4 => 4,
+        GL_MAP1_TEXTURE_COORD_4 | GL_MAP2_TEXTURE_COORD_4 => 4,
+        GL_MAP1_VERTEX_3 | GL_MAP2_VERTEX_3 | GL_MAP1_NORMAL | GL_MAP2_NORMAL => 3,
+        GL_MAP1_TEXTURE_COORD_3 | GL_MAP2_TEXTURE_COORD_3 => 3,
+        _ => return 0,
+    };
+    let gaps = |dimension: usize| {
+        let stride = natural(arguments[3 + 4 * dimension]);
+        natural(arguments[4 + 4 * dimension]).saturating_sub(1).saturating_mul(stride)
+    };
+    (0..dimensions).map(gaps).fold(components, usize::saturating_add)
+}
+
 /// Bytes of an image, whose format, type and sizes are the arguments at these positions; `None` if it is in error, or
 /// if the command reads nothing.
 pub fn image(gl: &Context, of: &[u8], arguments: &[u64]) -> Option<usize> {
@@ -90,5 +108,26 @@ fn extent(sizes: impl Iterator<Item = u64>) -> Option<Extent> {
         [width, height] => Some(Extent::plane(width, height)),
         [width, height, depth] => Some(Extent::volume(width, height, depth)),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn control_points_end_with_the_last_component() {
+        let [from, to] = [0.0f64.to_bits(), 1.0f64.to_bits()];
+        assert_eq!(points(1, &[GL_MAP1_VERTEX_3.into(), from, to, 5, 4]), 18);
+        let surface = [GL_MAP2_COLOR_4.into(), from, to, 4, 2, from, to, 8, 3];
+        assert_eq!(points(2, &surface), 4 + 16 + 4);
+        assert_eq!(points(1, &[GL_LIGHTING.into(), from, to, 5, 4]), 0);
+        assert_eq!(points(1, &[GL_MAP1_INDEX.into(), from, to, 5, -4i64 as u64]), 1);
+    }
+
+    #[test]
+    fn negative_counts_are_none() {
+        assert_eq!(elements(Length::Param(0), &[-1i64 as u64]), 0);
+        assert_eq!(elements(Length::Product(0, 2), &[3]), 6);
     }
 }

@@ -82,7 +82,7 @@ pub fn queries() {
         glGetIntegerv(GL_VIEWPORT, viewport.as_mut_ptr());
         glGetString(GL_SHADING_LANGUAGE_VERSION_ARB);
         glIsEnabled(GL_LIGHTING);
-        glMap1f(GL_MAP1_VERTEX_3, 0.0, 1.0, 3, 2, null());
+        glMap1f(GL_MAP1_VERTEX_3, 0.0, 1.0, 3, 2, [0.5; 6].as_ptr());
         glGetError();
     }
 }
@@ -94,7 +94,7 @@ pub const QUERIES: &[&str] = &[
     "glGetIntegerv(pname = GL_VIEWPORT, params = {0, 0, 64, 48})",
     "glGetString(name = GL_SHADING_LANGUAGE_VERSION) = NULL",
     "glIsEnabled(cap = GL_LIGHTING) = GL_FALSE",
-    "glMap1f(target = GL_MAP1_VERTEX_3, u1 = 0, u2 = 1, stride = 3, order = 2, points = NULL)",
+    "glMap1f(target = GL_MAP1_VERTEX_3, u1 = 0, u2 = 1, stride = 3, order = 2, points = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5})",
     "glGetError() = GL_INVALID_ENUM",
 ];
 

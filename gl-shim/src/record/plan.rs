@@ -16,6 +16,8 @@ pub enum Kind {
     Array(Number, Length),
     /// As many numbers as the parameter name at that position has.
     Parameters(Number, usize),
+    /// The same, written by the command.
+    Answers(Number, usize),
     /// As many bytes as an argument says.
     Bytes(usize),
     /// An image that the pixel store describes: format, type, and up to three sizes.
@@ -73,7 +75,7 @@ impl Plan {
         let kinds: Box<[Kind]> = command.params.iter().map(|param| kind(command, canonical, param)).collect();
         let written = params
             .filter(|(i, param)| {
-                let holds_values = matches!(kinds[*i], Kind::Array(..) | Kind::Parameters(..));
+                let holds_values = matches!(kinds[*i], Kind::Array(..) | Kind::Answers(..));
                 param.ctype.pointers > 0 && !param.ctype.constant && holds_values
             })
             .fold(0, |written, (i, _)| written | 1 << i);
@@ -98,6 +100,13 @@ pub fn plan(id: CommandId) -> &'static Plan {
 fn name(command: &Command, param: &Param) -> &'static str {
     match (command.name, param.name) {
         ("glGetBooleanv" | "glGetDoublev" | "glGetFloatv" | "glGetIntegerv", "data") => "params",
+        ("glDrawBuffer", "buf") | ("glReadBuffer", "src") => "mode",
+        ("glDepthRange", "n") => "zNear",
+        ("glDepthRange", "f") => "zFar",
+        ("glXChooseFBConfig" | "glXCreateWindow", "attrib_list") => "attribList",
+        ("glXChooseFBConfig", "nelements") => "nitems",
+        ("glXCreateNewContext", "render_type") => "renderType",
+        ("glXCreateNewContext", "share_list") => "shareList",
         (_, name) => name,
     }
 }
@@ -173,7 +182,10 @@ fn computed(
         (id::glDrawElements | id::glDrawRangeElements, &[count, kind], _) => {
             Kind::Indices(count.into(), kind.into())
         }
-        (_, [_], Some(number)) if pname.is_some() => Kind::Parameters(number, of[0].into()),
+        (_, &[of], Some(number)) if pname.is_some() && param.ctype.constant => {
+            Kind::Parameters(number, of.into())
+        }
+        (_, &[of], Some(number)) if pname.is_some() => Kind::Answers(number, of.into()),
         (_, [_, _, _, ..], None) if param.ctype.constant && param.name != "pointer" => Kind::Image(of),
         _ => Kind::Number(Number::Address),
     }

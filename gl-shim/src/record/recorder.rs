@@ -138,10 +138,16 @@ impl Recorder {
                     let pname = arguments[pname] as u32;
                     self.array(number, bits, sizes::values_of(pname), Some(pname));
                 }
+                Kind::Answers(number, pname) => {
+                    self.array(number, bits, sizes::values_of(arguments[pname] as u32), None);
+                }
                 Kind::Bytes(count) => self.bytes(bits, Some(natural(arguments[count]))),
                 Kind::Image(of) => self.bytes(bits, gl.and_then(|gl| sizes::image(gl, of, arguments))),
                 Kind::Bitmap(of) => self.bytes(bits, gl.and_then(|gl| sizes::bitmap(gl, of, arguments))),
-                Kind::Stipple => self.bytes(bits, gl.and_then(|gl| sizes::bitmap(gl, &[0, 1], &[32, 32]))),
+                Kind::Stipple => {
+                    let size = gl.and_then(|gl| sizes::bitmap(gl, &[0, 1], &[32, 32]));
+                    self.array(Number::U8, bits, size.unwrap_or(0), None);
+                }
                 Kind::Points(number, dimensions) => {
                     self.array(number, bits, sizes::points(dimensions, arguments), None);
                 }

@@ -1,5 +1,5 @@
-//! Arrays in the program's memory. How far a draw reads is known only when it is called, so calls of glVertexPointer and
-//! its like are recorded then, with the memory, as if the program had made them.
+//! Arrays in the program's memory. How far a draw reads is known only when it is called, so calls of glVertexPointer
+//! and its like are recorded then, with the memory, as if the program had made them.
 
 use afterglow_api::constants::*;
 use afterglow_api::{CommandId, id};

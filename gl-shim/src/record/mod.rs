@@ -1,9 +1,9 @@
 //! Recording what the program calls, in apitrace's format.
 //!
-//! The environment's `AFTERGLOW_RECORD` names the file. Every entry point asks [`is_on`], and goes through [`call`] if
-//! it is; what is written follows from what `afterglow-api` knows of the command ([`plan`]). Commands that read the
-//! program's memory later than they are called are recorded as apitrace does it: arrays before each draw
-//! ([`arrays`]), mapped buffers when they are unmapped ([`buffers`]).
+//! The environment's `AFTERGLOW_RECORD` names the file, which must be a new one. Every entry point asks [`is_on`], and
+//! goes through [`call`] if it is; what is written follows from what `afterglow-api` knows of the command ([`plan`]).
+//! Commands that read the program's memory later than they are called are recorded as apitrace does it: arrays before
+//! each draw ([`arrays`]), mapped buffers when they are unmapped ([`buffers`]).
 
 mod arrays;
 mod bits;
@@ -17,6 +17,7 @@ mod recorder;
 mod sizes;
 
 use std::cell::Cell;
+use std::fs::File;
 use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -34,6 +35,9 @@ use recorder::Recorder;
 
 /// What the environment calls the file.
 const VARIABLE: &str = "AFTERGLOW_RECORD";
+
+/// Files beside each other.
+const FILES: usize = 1000;
 
 /// How long the end of the process waits for another thread's call.
 const EXIT_WAITS: Duration = Duration::from_millis(500);
@@ -60,7 +64,7 @@ pub fn is_on() -> bool {
 /// # Errors
 /// Those of creating the file.
 pub fn start(path: &Path) -> io::Result<()> {
-    let recorder = Recorder::create(path)?;
+    let recorder = Recorder::new(File::create(path)?)?;
     *STATE.lock() = State::On(Box::new(recorder));
     ON.store(true, Ordering::Relaxed);
     Ok(())
@@ -190,7 +194,7 @@ fn recorder() -> Option<MappedMutexGuard<'static, Recorder>> {
 #[cold]
 fn asked() -> State {
     let Some(path) = std::env::var_os(VARIABLE).filter(|path| !path.is_empty()) else { return State::Off };
-    match Recorder::create(path.as_ref()) {
+    match create(path.as_ref()).and_then(Recorder::new) {
         Ok(recorder) => {
             flush_at_exit();
             State::On(Box::new(recorder))
@@ -200,6 +204,22 @@ fn asked() -> State {
             State::Off
         }
     }
+}
+
+/// A file of that name, or if it is there already, one of a name beside it: a program may be several processes.
+fn create(path: &Path) -> io::Result<File> {
+    let beside = (1..FILES).map(|number| {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        path.with_extension(format!("{number}.{extension}"))
+    });
+    let mut taken = io::ErrorKind::AlreadyExists.into();
+    for path in std::iter::once(path.to_owned()).chain(beside) {
+        match File::create_new(&path) {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => taken = error,
+            created => return created.inspect(|_| tracing::info!("recording to {}", path.display())),
+        }
+    }
+    Err(taken)
 }
 
 fn flush_at_exit() {
@@ -227,4 +247,20 @@ fn thread() -> u32 {
             new
         })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_there_is_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("game.trace");
+        create(&path).unwrap();
+        create(&path).unwrap();
+        create(&path).unwrap();
+        assert!(path.with_extension("1.trace").exists() && path.with_extension("2.trace").exists());
+        assert!(create(&folder.path().join("missing/game.trace")).is_err());
+    }
 }

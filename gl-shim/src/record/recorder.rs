@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use afterglow_api::{Command, CommandId};
@@ -32,11 +31,11 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Begins a file.
-    pub fn create(path: &Path) -> io::Result<Recorder> {
+    /// Begins a recording.
+    pub fn new(file: File) -> io::Result<Recorder> {
         let program = std::env::current_exe().unwrap_or_default();
         let properties = [("process.name", &*program.to_string_lossy())];
-        let writer = TraceWriter::new(File::create(path)?, &properties)?;
+        let writer = TraceWriter::new(file, &properties)?;
         Ok(Recorder { writer, flushed: Instant::now(), calls: 0, failed: false })
     }
 

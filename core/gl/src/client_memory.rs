@@ -68,6 +68,12 @@ impl Context {
         arrays.filter_map(|(slot, array)| MemoryArray::of(slot, array))
     }
 
+    /// Whether a draw of so many vertices reads arrays at all; one in error may not.
+    pub fn reads_arrays(&self, vertices: usize) -> bool {
+        let has_positions = self.client.arrays[Slot::Position as usize].is_read();
+        has_positions && !self.in_begin() && (1..=limits::DRAW_VERTICES).contains(&vertices)
+    }
+
     /// Whether a buffer is bound to GL_ARRAY_BUFFER, so that pointers are offsets.
     pub fn has_array_buffer(&self) -> bool {
         self.client.array_buffer.is_some()
@@ -126,6 +132,9 @@ mod tests {
         assert_eq!(vertices.bytes(3), Some(44));
         assert_eq!((coordinates.array, coordinates.unit), (GL_TEXTURE_COORD_ARRAY, 1));
         assert_eq!((coordinates.bytes(3), coordinates.bytes(0)), (Some(12), Some(0)));
+        assert!(gl.reads_arrays(1) && !gl.reads_arrays(0) && !gl.reads_arrays(limits::DRAW_VERTICES + 1));
+        gl.disable_client_state(GL_VERTEX_ARRAY);
+        assert!(!gl.reads_arrays(1));
     }
 
     #[test]

@@ -21,10 +21,11 @@ pub unsafe fn before_draw(recorder: &mut Recorder, gl: &mut Context, role: Role,
     }
     // SAFETY: the contract is the same.
     let vertices = unsafe { vertices(gl, role, arguments) };
-    if vertices > 0 {
-        // A program may lock more than it draws, and change the arrays for the next draw but not what is locked.
+    // A program may lock more than it draws, and change what is not locked before the next draw.
+    let vertices = if vertices == 0 { 0 } else { vertices.max(gl.locked_vertices()) };
+    if gl.reads_arrays(vertices) {
         // SAFETY: the program's arrays hold what it draws and locks.
-        unsafe { arrays(recorder, gl, vertices.max(gl.locked_vertices())) };
+        unsafe { arrays(recorder, gl, vertices) };
     }
 }
 

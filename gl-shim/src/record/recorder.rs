@@ -18,6 +18,10 @@ use crate::memory;
 /// How old what is not in the file yet may become while calls are made.
 const FLUSH_AFTER: Duration = Duration::from_millis(250);
 
+/// Elements of an array and bytes of a blob that are recorded at most; commands of more are in error and read nothing.
+const MOST_ELEMENTS: usize = 1 << 20;
+const MOST_BYTES: usize = 1 << 29;
+
 /// Calls between looks at the clock.
 const CALLS_PER_LOOK: u32 = 1024;
 
@@ -169,8 +173,8 @@ impl Recorder {
     }
 
     unsafe fn array(&mut self, number: Number, address: u64, elements: usize, pname: Option<u32>) {
-        if address == 0 {
-            return self.writer.null();
+        if address == 0 || elements > MOST_ELEMENTS {
+            return self.writer.pointer(address);
         }
         self.writer.array(elements);
         for index in 0..elements {
@@ -186,8 +190,10 @@ impl Recorder {
     /// Bytes that are read; none of a command in error.
     pub unsafe fn bytes(&mut self, address: u64, count: Option<usize>) {
         match count {
-            // SAFETY: there are so many bytes.
-            Some(count) if address != 0 => self.writer.blob(unsafe { memory::bytes(address as _, count) }),
+            Some(count) if address != 0 && count <= MOST_BYTES => {
+                // SAFETY: there are so many bytes.
+                self.writer.blob(unsafe { memory::bytes(address as _, count) });
+            }
             _ => self.writer.null(),
         }
     }
@@ -204,7 +210,7 @@ impl Recorder {
     /// glMultiDrawElements: mode, counts, type, indices, number.
     unsafe fn index_lists(&mut self, arguments: &[u64], gl: Option<&Context>) {
         let &[_, counts, kind, lists, draws] = arguments else { return self.writer.null() };
-        if counts == 0 || lists == 0 {
+        if counts == 0 || lists == 0 || natural(draws) > MOST_ELEMENTS {
             return self.writer.null();
         }
         self.writer.array(natural(draws));

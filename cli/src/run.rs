@@ -2,8 +2,9 @@
 
 use std::ffi::{OsStr, OsString};
 use std::os::unix::process::CommandExt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{fs, io};
 
 use afterglow_gpu::Gpu;
 use clap::Args;
@@ -24,6 +25,10 @@ pub struct Arguments {
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
     seed: u32,
+    /// Record what the program calls, in apitrace's format. Further processes of the program record into FILE.1.trace
+    /// and so on
+    #[arg(long, value_name = "FILE", env = "AFTERGLOW_RECORD")]
+    record: Option<PathBuf>,
     #[command(flatten)]
     device: DeviceArguments,
     /// The program and its arguments
@@ -41,6 +46,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Ok(gpu) => {
             drop(gpu);
             set_up(&mut command, arguments, &libdir::find()?);
+            if let Some(path) = &arguments.record {
+                command.env("AFTERGLOW_RECORD", recording(path)?);
+            }
         }
         Err(error) if error.is_no_device() => {
             eprintln!("afterglow: {error}\nafterglow: starting the program with the system's OpenGL");
@@ -72,6 +80,18 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
     }
 }
 
+/// Where to record: a place that does not depend on the program's folder, without what was recorded before.
+fn recording(path: &Path) -> Result<PathBuf, Failure> {
+    let prepare = || {
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+        std::path::absolute(path)
+    };
+    prepare().map_err(|source| Failure::Output { path: path.into(), source })
+}
+
 /// A list of folders with one more in front.
 fn before(folder: &Path, list: Option<&OsStr>) -> OsString {
     let mut text = folder.as_os_str().to_owned();
@@ -85,6 +105,13 @@ fn before(folder: &Path, list: Option<&OsStr>) -> OsString {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn recordings_have_a_place_of_their_own() {
+        let path = recording(Path::new("no such file.trace")).unwrap();
+        assert!(path.is_absolute() && path.ends_with("no such file.trace"));
+        assert!(recording(&std::env::temp_dir()).is_err());
+    }
 
     #[test]
     fn our_folder_comes_first() {

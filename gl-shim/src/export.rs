@@ -7,6 +7,20 @@ macro_rules! exports {
     )*) => {$(
         #[unsafe(no_mangle)]
         pub unsafe extern "system" fn $name($($param: $ty),*) $(-> $result)? {
+            #[cold]
+            unsafe extern "system" fn recorded($($param: $ty),*) $(-> $result)? {
+                let arguments = [$($crate::record::Bits::bits($param)),*];
+                let run = || {
+                    // SAFETY: the caller's pointers are what the specification of the command wants.
+                    $boundary(|$gl| unsafe { $call }) $(as $result)?
+                };
+                // SAFETY: as above.
+                unsafe { $crate::record::call(afterglow_api::id::$name, &arguments, run) }
+            }
+            if $crate::record::is_on() {
+                // SAFETY: the contract is the same.
+                return unsafe { recorded($($param),*) };
+            }
             // SAFETY: the caller's pointers are what the specification of the command wants.
             $boundary(|$gl| unsafe { $call }) $(as $result)?
         }
@@ -19,7 +33,13 @@ macro_rules! refusals {
         #[unsafe(no_mangle)]
         pub unsafe extern "system" fn $name($($param: $ty),*) {
             static CALLED: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
-            $crate::stub::call(stringify!($name), &CALLED);
+            let run = || $crate::stub::call(stringify!($name), &CALLED);
+            if !$crate::record::is_on() {
+                return run();
+            }
+            let arguments = [$($crate::record::Bits::bits($param)),*];
+            // SAFETY: the caller's pointers are what the specification of the command wants.
+            unsafe { $crate::record::call(afterglow_api::id::$name, &arguments, run) }
         }
     )*};
 }

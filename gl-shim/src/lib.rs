@@ -2,7 +2,7 @@
 //!
 //! The entry points of OpenGL are generated (`generated/`); what they share is hand-written: finding the current context
 //! (`current`), the panic boundary (`boundary`), reading the program's memory (`memory`), and commands whose
-//! arguments need more than that (`special`). `glx` is the window system. No Vulkan here.
+//! arguments need more than that (`special`). `record` writes what is called into a trace. `glx` is the window system. No Vulkan here.
 
 #![allow(non_snake_case, reason = "the library is called libGL")]
 #![allow(
@@ -20,6 +20,7 @@ mod memory;
 mod number;
 pub mod options;
 pub mod proc_address;
+pub mod record;
 mod special;
 pub mod stub;
 #[cfg(test)]

@@ -13,6 +13,11 @@ pub fn enumerant_in_group(group: &str, value: u32) -> Option<&'static str> {
     find(GROUPS[index].1, value)
 }
 
+/// All names that [`enumerant_name`] knows, ordered by value.
+pub fn enumerant_names() -> &'static [(u32, &'static str)] {
+    &NAMES
+}
+
 fn find(names: &[(u32, &'static str)], value: u32) -> Option<&'static str> {
     let index = names.binary_search_by_key(&value, |&(value, _)| value).ok()?;
     Some(names[index].1)

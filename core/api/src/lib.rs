@@ -8,7 +8,7 @@ mod enumerant;
 mod generated;
 
 pub use command::{Api, Base, CType, Command, CommandId, Length, Param, Scope};
-pub use enumerant::{enumerant_in_group, enumerant_name};
+pub use enumerant::{enumerant_in_group, enumerant_name, enumerant_names};
 pub use generated::constants;
 /// Ids of the commands in scope and of those of the window systems, by their names in C.
 pub use generated::ids as id;

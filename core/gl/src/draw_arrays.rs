@@ -295,7 +295,13 @@ impl Context {
     }
 
     /// Reads indices; false if they are not there.
-    fn read_indices(&mut self, count: usize, kind: u32, pointer: Pointer, out: &mut Vec<u32>) -> bool {
+    pub(crate) fn read_indices(
+        &mut self,
+        count: usize,
+        kind: u32,
+        pointer: Pointer,
+        out: &mut Vec<u32>,
+    ) -> bool {
         let needed = count * component_bytes(kind);
         let offset = match (&pointer, self.client.element_buffer.is_some()) {
             (Pointer::Offset(offset), true) => Some(*offset as usize),

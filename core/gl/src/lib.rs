@@ -7,6 +7,7 @@ mod attributes;
 pub mod backend;
 mod blocks;
 mod buffers;
+mod client_memory;
 mod commands;
 mod context;
 mod draw_arrays;
@@ -35,6 +36,7 @@ pub mod texture;
 mod texturing;
 
 pub use arrays::Pointer;
+pub use client_memory::{MemoryArray, index_bytes};
 pub use context::{Context, Params};
 pub use get::Value;
 pub use list_offsets::{list_offset_bytes, list_offsets};

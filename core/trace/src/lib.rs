@@ -2,7 +2,7 @@
 //!
 //! A trace is a compressed stream ([`Container`]) of events: a call is entered with its arguments and left with its
 //! results. [`TraceReader`] pairs the events and hands out whole [`Call`]s in the order in which they were entered.
-//! [`dump`] prints a call as a line of text.
+//! [`dump`] prints a call as a line of text; [`write`] writes traces.
 //!
 //! The format is that of apitrace's `docs/FORMAT.markdown`, versions 0 to [`format::NEWEST_VERSION`]. A trace is
 //! untrusted input: every count and length is bounded ([`format::limits`]), and whatever precedes a fault is delivered
@@ -27,6 +27,7 @@ pub mod format;
 mod reader;
 mod signature;
 mod value;
+pub mod write;
 
 pub use call::Call;
 pub use container::Container;
@@ -37,3 +38,4 @@ pub use signature::{
     StackFrame, StructId, StructSignature,
 };
 pub use value::{StructValue, Value};
+pub use write::TraceWriter;

@@ -16,6 +16,7 @@ use std::io::{self, BufRead, Read};
 
 pub(crate) use blocks::Blocks;
 pub(crate) use detect::open;
+pub(crate) use snappy::MAGIC as SNAPPY_MAGIC;
 
 /// The way in which a trace is compressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

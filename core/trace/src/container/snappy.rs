@@ -6,7 +6,7 @@ use super::snappy_prefix::decode_prefix;
 use super::{Decode, DecodeError, Source, fill};
 use crate::format::limits;
 
-pub(super) const MAGIC: [u8; 2] = *b"at";
+pub(crate) const MAGIC: [u8; 2] = *b"at";
 
 /// Decodes the chunks that follow the magic.
 pub(super) struct SnappyDecoder {

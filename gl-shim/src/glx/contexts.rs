@@ -49,6 +49,8 @@ pub struct GlxContext {
     /// Where its frames go; nothing without a render thread.
     pub port: Option<Port>,
     is_current: AtomicBool,
+    /// Its first drawable's size is in the recording.
+    pub has_recorded_size: AtomicBool,
     gl: UnsafeCell<Context>,
 }
 
@@ -65,7 +67,15 @@ impl GlxContext {
             None if render::is_noop() => Context::new(Box::<Discard>::default(), group.names.clone()),
             None => Context::new(Box::new(NullBackend), group.names.clone()),
         };
-        Self { handle, config, group, port, is_current: AtomicBool::new(false), gl: UnsafeCell::new(gl) }
+        Self {
+            handle,
+            config,
+            group,
+            port,
+            is_current: AtomicBool::new(false),
+            has_recorded_size: AtomicBool::new(false),
+            gl: UnsafeCell::new(gl),
+        }
     }
 
     /// Makes the context the calling thread's alone; `false` if it is a thread's already.

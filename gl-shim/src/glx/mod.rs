@@ -17,6 +17,7 @@ mod drawables;
 pub mod exports;
 mod glyphs;
 pub mod proc_address;
+mod recording;
 mod render;
 mod xlib;
 

@@ -4,6 +4,7 @@ use std::ffi::{c_int, c_ulong, c_void};
 use std::ptr::null_mut;
 
 use afterglow_api::constants::glx::*;
+use afterglow_api::id;
 
 use super::configs::of_visual;
 use super::put;
@@ -12,7 +13,9 @@ use crate::glx::attributes::{self, Attribute, value};
 use crate::glx::binding;
 use crate::glx::config::{self, Config};
 use crate::glx::contexts;
+use crate::glx::recording::{self, boolean, pointer};
 use crate::glx::xlib::{self, Display, VisualInfo, Xid};
+use crate::record::glx::Value;
 
 /// The highest version of OpenGL that there are contexts of.
 const VERSION: (i32, i32) = (1, 5);
@@ -23,22 +26,34 @@ pub unsafe extern "C" fn glXCreateContext(
     display: *mut Display,
     visual: *const VisualInfo,
     share: *mut c_void,
-    _: c_int,
+    direct: c_int,
 ) -> *mut c_void {
     // SAFETY: the program vouches for display and visual.
-    create(share, || unsafe { of_visual(display, visual) })
+    let context = create(share, || unsafe { of_visual(display, visual) });
+    // SAFETY: as above.
+    unsafe {
+        recording::with_visual(visual, |visual| {
+            let arguments = [pointer(display), visual, pointer(share), boolean(direct)];
+            recording::call(id::glXCreateContext, &arguments, Some(pointer(context)));
+        });
+    }
+    context
 }
 
 /// glXCreateNewContext.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn glXCreateNewContext(
-    _: *mut Display,
+    display: *mut Display,
     config: *const c_void,
     render_type: c_int,
     share: *mut c_void,
-    _: c_int,
+    direct: c_int,
 ) -> *mut c_void {
-    create(share, || config::from_handle(config).filter(|_| render_type as u32 == GLX_RGBA_TYPE))
+    let context =
+        create(share, || config::from_handle(config).filter(|_| render_type as u32 == GLX_RGBA_TYPE));
+    let given = [display.cast_const().cast(), config, share.cast_const()];
+    recording::new_context(id::glXCreateNewContext, given, Some(render_type), direct, context);
+    context
 }
 
 /// glXCreateContextWithConfigSGIX.
@@ -57,17 +72,20 @@ pub unsafe extern "C" fn glXCreateContextWithConfigSGIX(
 /// glXCreateContextAttribsARB. NULL, without an X error, where the version is not ours: programs ask for less then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn glXCreateContextAttribsARB(
-    _: *mut Display,
+    display: *mut Display,
     config: *const c_void,
     share: *mut c_void,
-    _: c_int,
+    direct: c_int,
     list: *const c_int,
 ) -> *mut c_void {
-    create(share, || {
+    let context = create(share, || {
         // SAFETY: the program vouches for its list.
         let wanted = unsafe { attributes::read(list, &[]) };
         config::from_handle(config).filter(|_| is_served(&wanted))
-    })
+    });
+    let given = [display.cast_const().cast(), config, share.cast_const()];
+    recording::new_context(id::glXCreateContextAttribsARB, given, None, direct, context);
+    context
 }
 
 /// Whether there are contexts with such attributes.
@@ -89,8 +107,9 @@ fn create(share: *mut c_void, config: impl FnOnce() -> Option<&'static Config>) 
 
 /// glXDestroyContext.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXDestroyContext(_: *mut Display, context: *mut c_void) {
+pub unsafe extern "C" fn glXDestroyContext(display: *mut Display, context: *mut c_void) {
     guarded(|| contexts::destroy(context));
+    recording::call(id::glXDestroyContext, &[pointer(display), pointer(context)], None);
 }
 
 /// glXFreeContextEXT.
@@ -103,7 +122,12 @@ pub unsafe extern "C" fn glXFreeContextEXT(_: *mut Display, context: *mut c_void
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn glXMakeCurrent(display: *mut Display, drawable: Xid, context: *mut c_void) -> c_int {
     // SAFETY: the program vouches for its display.
-    guarded(|| unsafe { binding::make_current(display, drawable, drawable, context) }).unwrap_or(false).into()
+    let done =
+        guarded(|| unsafe { binding::make_current(display, drawable, drawable, context) }).unwrap_or(false);
+    let arguments = [pointer(display), Value::Id(drawable), pointer(context)];
+    recording::call(id::glXMakeCurrent, &arguments, Some(Value::Bool(done)));
+    recording::made_current();
+    done.into()
 }
 
 /// glXMakeContextCurrent.
@@ -115,7 +139,11 @@ pub unsafe extern "C" fn glXMakeContextCurrent(
     context: *mut c_void,
 ) -> c_int {
     // SAFETY: the program vouches for its display.
-    guarded(|| unsafe { binding::make_current(display, draw, read, context) }).unwrap_or(false).into()
+    let done = guarded(|| unsafe { binding::make_current(display, draw, read, context) }).unwrap_or(false);
+    let arguments = [pointer(display), Value::Id(draw), Value::Id(read), pointer(context)];
+    recording::call(id::glXMakeContextCurrent, &arguments, Some(Value::Bool(done)));
+    recording::made_current();
+    done.into()
 }
 
 /// glXMakeCurrentReadSGI.

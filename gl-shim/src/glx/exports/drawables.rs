@@ -4,6 +4,7 @@ use std::ffi::{c_int, c_uint, c_ulong, c_void};
 use std::sync::atomic::Ordering;
 
 use afterglow_api::constants::glx::*;
+use afterglow_api::id;
 
 use super::configs::of_visual;
 use super::put;
@@ -12,7 +13,9 @@ use crate::glx::attributes::{self, value};
 use crate::glx::config::{self, Config, PBUFFER_EXTENT};
 use crate::glx::displays;
 use crate::glx::drawables::{self, Kind};
+use crate::glx::recording::{self, pointer};
 use crate::glx::xlib::{self, Display, VisualInfo, Xid};
+use crate::record::glx::Value;
 
 /// The greatest swap interval that glXQueryDrawable tells.
 const MOST_INTERVAL: c_uint = 1;
@@ -26,9 +29,13 @@ pub unsafe extern "C" fn glXCreateWindow(
     _: *const c_int,
 ) -> Xid {
     // SAFETY: the program vouches for its display.
-    guarded(|| unsafe { of_x(display, config::from_handle(config)?, window, Kind::Window { window }) })
-        .flatten()
-        .unwrap_or(0)
+    let made =
+        guarded(|| unsafe { of_x(display, config::from_handle(config)?, window, Kind::Window { window }) })
+            .flatten()
+            .unwrap_or(0);
+    let arguments = [pointer(display), pointer(config), Value::Id(window), Value::Attributes(None)];
+    recording::call(id::glXCreateWindow, &arguments, Some(Value::Id(made)));
+    made
 }
 
 /// glXCreatePixmap.

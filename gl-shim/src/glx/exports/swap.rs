@@ -3,15 +3,19 @@
 use std::ffi::{c_int, c_uint};
 
 use afterglow_api::constants::glx::*;
+use afterglow_api::id;
 
 use crate::boundary::guarded;
 use crate::glx::xlib::{Display, Xid};
-use crate::glx::{binding, drawables};
+use crate::glx::{binding, drawables, recording};
+use crate::record::glx::Value;
 
 /// glXSwapBuffers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn glXSwapBuffers(display: *mut Display, drawable: Xid) {
     guarded(|| binding::swap(display, drawable));
+    let arguments = [recording::pointer(display), Value::Id(drawable)];
+    recording::call(id::glXSwapBuffers, &arguments, None);
 }
 
 /// glXSwapIntervalEXT.

@@ -109,6 +109,13 @@ impl Backend for Port {
         }
     }
 
+    fn wait(&mut self) {
+        if let Some(drawable) = self.draw() {
+            let size = drawable.size();
+            self.ask(drawable, Frame { size, ..Frame::default() }, Request::Finish);
+        }
+    }
+
     fn recycle(&mut self) -> Frame {
         self.engine().recycled()
     }

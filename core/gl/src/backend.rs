@@ -60,6 +60,9 @@ pub trait Backend: Send {
     /// Takes the operations so far of a frame that goes on, and answers a question about them.
     fn answer(&mut self, so_far: Frame, request: Request) -> Reply;
 
+    /// Waits until all that was handed over is done.
+    fn wait(&mut self) {}
+
     /// An empty frame, with the memory of an earlier one where possible.
     fn recycle(&mut self) -> Frame {
         Frame::default()

@@ -143,11 +143,13 @@ impl Context {
         }
     }
 
-    /// glFinish: waits until everything so far is done, without cutting a double-buffered frame.
+    /// glFinish: waits until everything that was handed over is done. A frame that goes on is not cut: programs that
+    /// finish every frame can still be traced.
     pub fn finish(&mut self) {
         if self.in_begin() {
-            self.record_error(GL_INVALID_OPERATION);
+            return self.record_error(GL_INVALID_OPERATION);
         }
+        self.backend.wait();
     }
 
     /// Records an error unless one is recorded already.

@@ -12,7 +12,7 @@ use crate::error::RenderError;
 use crate::renderer::Renderer;
 
 /// Words of vertices that are kept of a frame in parts, at most; of a larger one the rest is rasterized.
-const MOST_WORDS: usize = 1 << 26;
+const MOST_WORDS: usize = 1 << 24;
 
 /// What was handed over of a frame that is going on.
 pub(crate) enum Parts {

@@ -9,11 +9,11 @@ pub fn flush(gl: &mut Context) {
     crate::glx::flushed(gl);
 }
 
-/// glFinish.
+/// glFinish: what is drawn to a single buffer is handed over first.
 pub fn finish(gl: &mut Context) {
-    gl.finish();
     #[cfg(target_os = "linux")]
     crate::glx::flushed(gl);
+    gl.finish();
 }
 
 /// glViewport: a program that was told of its window's new size comes here first.

@@ -252,8 +252,8 @@ pub unsafe extern "C" fn glXGetContextIDEXT(context: *const c_void) -> Xid {
 pub unsafe extern "C" fn glXWaitGL() {
     guarded(|| {
         binding::with_gl(|_, gl| {
-            gl.finish();
             binding::flushed(gl);
+            gl.finish();
         })
     });
 }

@@ -8,6 +8,8 @@ use afterglow_gpu::GpuOptions;
 use afterglow_render::{Mode, PathtraceOptions};
 use tracing::level_filters::LevelFilter;
 
+/// Samples a pixel and frame unless asked otherwise: a program that is played cannot wait for more.
+const LIVE_SAMPLES: u32 = 1;
 /// Most samples a pixel and frame.
 const MOST_SAMPLES: u32 = 65536;
 
@@ -24,7 +26,7 @@ pub fn is_noop() -> bool {
 
 fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
     let mut pathtrace = PathtraceOptions::default();
-    let samples = parsed(variable, "AFTERGLOW_SPP", number).unwrap_or(pathtrace.spp);
+    let samples = parsed(variable, "AFTERGLOW_SPP", number).unwrap_or(LIVE_SAMPLES);
     pathtrace.spp = samples.clamp(1, MOST_SAMPLES);
     pathtrace.seed = parsed(variable, "AFTERGLOW_SEED", number).unwrap_or(pathtrace.seed);
     EngineOptions {
@@ -95,6 +97,7 @@ mod tests {
         let options = from_variables(&|_| None);
         assert_eq!(options.mode, Mode::Pathtrace);
         assert!(!options.gpu.validation && options.gpu.device.is_none());
+        assert_eq!(options.pathtrace.spp, 1);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU64, Ordering};
 use std::time::Duration;
 
 use afterglow_gl::backend::End;
+use afterglow_gl::frame::Frame;
 
 use crate::message::Message;
 use crate::thread::Engine;
@@ -40,8 +41,8 @@ pub(crate) struct Shared {
     queue: Queue,
     /// Parts of frames.
     parts: Queue,
-    /// It waits to be shown without a buffer swap.
-    pub(crate) is_presenting: AtomicBool,
+    /// Something was drawn since it was last to be shown.
+    pub(crate) is_drawn: AtomicBool,
 }
 
 /// Frames that were handed over and not finished.
@@ -54,7 +55,7 @@ pub(crate) struct Queue {
 /// Frames of a drawable that wait or are being drawn, at most.
 const MOST_PENDING: u32 = 2;
 /// Parts of frames, likewise: a program that never swaps must not fill the memory.
-const MOST_PARTS: u32 = 64;
+const MOST_PARTS: u32 = 8;
 /// How often a thread that waits for the render thread looks whether that is still there.
 const LOOK: Duration = Duration::from_millis(100);
 
@@ -93,7 +94,7 @@ impl Drawable {
             swap_interval: AtomicI32::new(1),
             queue: Queue::new(MOST_PENDING),
             parts: Queue::new(MOST_PARTS),
-            is_presenting: AtomicBool::new(false),
+            is_drawn: AtomicBool::new(false),
         };
         Self { shared: Arc::new(shared) }
     }
@@ -127,10 +128,17 @@ impl Drawable {
         self.shared.swap_interval.store(interval, Ordering::Relaxed);
     }
 
+    /// Takes note that a frame draws something.
+    pub(crate) fn note_operations(&self, frame: &Frame) {
+        if !frame.operations.is_empty() {
+            self.shared.is_drawn.store(true, Ordering::Release);
+        }
+    }
+
     /// Shows what is drawn without a buffer swap: after glFlush of a drawable with one buffer. Programs flush often;
-    /// what waits to be shown already is not shown twice.
+    /// where nothing was drawn since, nothing happens.
     pub fn present(&self) {
-        if !self.shared.is_presenting.swap(true, Ordering::AcqRel) {
+        if self.shared.is_drawn.swap(false, Ordering::AcqRel) {
             self.shared.engine.send(Message::Present { drawable: self.clone() });
         }
     }

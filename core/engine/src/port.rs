@@ -83,6 +83,7 @@ impl Port {
     }
 
     fn ask(&self, drawable: Drawable, frame: Frame, request: Request) -> Reply {
+        drawable.note_operations(&frame);
         let (reply, answer) = mpsc::sync_channel(1);
         self.engine().send(Message::Ask { group: self.group.shared.id, drawable, frame, request, reply });
         answer.recv().unwrap_or(Reply::Unavailable)
@@ -92,6 +93,7 @@ impl Port {
 impl Backend for Port {
     fn submit(&mut self, frame: Frame, end: End) {
         let Some(drawable) = self.draw() else { return };
+        drawable.note_operations(&frame);
         drawable.shared.queue_of(end).enter(|| self.engine().is_alive());
         let (group, handed_over) = (self.group.shared.id, Instant::now());
         self.engine().send(Message::Frame { group, drawable, frame, end, handed_over });

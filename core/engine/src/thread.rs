@@ -235,10 +235,7 @@ impl State {
             Message::Ask { group, drawable, frame, request, reply } => {
                 let _ = reply.send(self.answer(group, &drawable, frame, request));
             }
-            Message::Present { drawable } => {
-                drawable.shared.is_presenting.store(false, Ordering::Release);
-                self.present(&drawable);
-            }
+            Message::Present { drawable } => self.present(&drawable),
             Message::Stop => {}
         }
     }

@@ -25,7 +25,7 @@ pub const ELEMENTS: i32 = 65536;
 /// Vertices of one draw; more is GL_OUT_OF_MEMORY.
 pub const DRAW_VERTICES: usize = 1 << 26;
 /// Words of vertices that a frame may hold before it is handed over early.
-pub const FRAME_WORDS: usize = 1 << 26;
+pub const FRAME_WORDS: usize = 1 << 23;
 /// Bytes of a buffer object.
 pub const BUFFER_BYTES: usize = 1 << 31;
 /// Names that one glGen call may ask for.

@@ -131,9 +131,9 @@ impl Swapchain {
         self.waits_for_blank
     }
 
-    /// Shows an image in the window: its upper left corner in the window's, without scaling. `before` says how the
-    /// last commands left it; it is left to be read by transfers.
-    pub fn present(&mut self, gpu: &Gpu, image: &Image, before: Access) -> Result<Presented, GpuError> {
+    /// Shows an image in the window: its upper left corner in the window's, without scaling. `state` says how the
+    /// last commands left it, and then how it is left: as it was, or to be read by transfers.
+    pub fn present(&mut self, gpu: &Gpu, image: &Image, state: &mut Access) -> Result<Presented, GpuError> {
         // A window that changes while it is drawn to may fail a few times in a row.
         for _ in 0..4 {
             if self.raw == vk::SwapchainKHR::null() {
@@ -146,7 +146,8 @@ impl Swapchain {
                 self.unmake(gpu)?;
                 continue;
             };
-            self.copy(gpu, index, image, before)?;
+            self.copy(gpu, index, image, *state)?;
+            *state = Access::TRANSFER_READ;
             if self.show(gpu, index)? {
                 return Ok(Presented::Shown);
             }

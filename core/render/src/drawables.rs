@@ -66,8 +66,9 @@ impl Renderer {
     pub fn present(&mut self, swapchain: &mut Swapchain) -> Result<Presented, GpuError> {
         use afterglow_frame_graph::{Access, ResourceState};
         let before = last_use(self.target.color_state);
-        let presented = swapchain.present(&self.gpu, &self.target.color, before);
-        if !matches!(presented, Ok(Presented::Hidden)) {
+        let mut state = before;
+        let presented = swapchain.present(&self.gpu, &self.target.color, &mut state);
+        if state != before {
             self.target.color_state = ResourceState::after(Access::TransferSrc);
         }
         presented

@@ -159,9 +159,8 @@ pub fn swap(display: *mut Display, drawable: Xid) {
 pub fn flushed(gl: &mut Context) {
     with(|binding| {
         if binding.is_single() {
-            if gl.hand_over_so_far()
-                && let Some(target) = binding.draw.target()
-            {
+            gl.hand_over_so_far();
+            if let Some(target) = binding.draw.target() {
                 target.present();
                 binding.draw.shown();
                 let (width, height) = target.size();

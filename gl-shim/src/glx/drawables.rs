@@ -246,7 +246,7 @@ unsafe fn prune(display: *mut Display) {
     let by_key = drawables.by_key.get_or_insert_default();
     let removed: Vec<_> = gone.iter().filter_map(|key| by_key.remove(key)).collect();
     let left = by_key.len();
-    drawables.prune_at = PRUNED_FROM.max(2 * left);
+    drawables.prune_at = PRUNED_FROM.max(left + PRUNED_FROM);
     drop(drawables);
     drop(removed);
 }

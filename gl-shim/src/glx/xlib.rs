@@ -4,6 +4,8 @@ use std::ffi::{CStr, c_char, c_int, c_long, c_short, c_uint, c_ulong, c_ushort, 
 use std::mem::MaybeUninit;
 use std::sync::OnceLock;
 
+use parking_lot::Mutex;
+
 /// Of Xlib, only ever a pointer that the program gave.
 pub type Display = c_void;
 /// The name of anything in an X server.
@@ -151,6 +153,9 @@ impl Xlib {
     /// # Safety
     /// `display` is open. `requests` waits for its last request's answer.
     pub unsafe fn forgiving<T>(&self, display: *mut Display, requests: impl FnOnce() -> T) -> T {
+        // Two threads at a time would take each other's handler for the program's.
+        static ALONE: Mutex<()> = Mutex::new(());
+        let _alone = ALONE.lock();
         // SAFETY: the caller vouches for the display.
         unsafe { (self.sync)(display, 0) };
         // SAFETY: a handler with the type that Xlib wants.

@@ -185,7 +185,8 @@ fn recorder() -> Option<MappedMutexGuard<'static, Recorder>> {
         ON.store(matches!(*state, State::On(_)), Ordering::Relaxed);
     }
     MutexGuard::try_map(state, |state| match state {
-        State::On(recorder) => Some(&mut **recorder),
+        // A forked process has the file too, but it is not its own.
+        State::On(recorder) if recorder.process == std::process::id() => Some(&mut **recorder),
         _ => None,
     })
     .ok()

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::failure::Failure;
 
 /// Names under which programs look for OpenGL; all of them are our one library.
-pub const NAMES: [&str; 5] =
-    ["libGL.so.1", "libGL.so", "libOpenGL.so.0", "libGLX.so.0", "libGLX_afterglow.so.0"];
+pub const NAMES: [&str; 4] = ["libGL.so.1", "libGL.so", "libOpenGL.so.0", "libGLX.so.0"];
 
 /// Runs `libdir`.
 pub fn run() -> Result<(), Failure> {

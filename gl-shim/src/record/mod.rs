@@ -45,6 +45,10 @@ const EXIT_WAITS: Duration = Duration::from_millis(500);
 /// Set until the environment has been asked, and while calls are recorded.
 static ON: AtomicBool = AtomicBool::new(true);
 
+/// The process that records; 0 before there is one. A forked process has the file and its unwritten part too, and
+/// perhaps a lock that nobody opens, but none of it is its own.
+static OWNER: AtomicU32 = AtomicU32::new(0);
+
 static STATE: Mutex<State> = Mutex::new(State::Unasked);
 
 enum State {
@@ -65,6 +69,7 @@ pub fn is_on() -> bool {
 /// Those of creating the file.
 pub fn start(path: &Path) -> io::Result<()> {
     let recorder = Recorder::new(File::create(path)?)?;
+    OWNER.store(std::process::id(), Ordering::Relaxed);
     *STATE.lock() = State::On(Box::new(recorder));
     ON.store(true, Ordering::Relaxed);
     Ok(())
@@ -177,16 +182,24 @@ unsafe fn leave(entered: Entered, id: CommandId, arguments: &[u64], result: u64)
     }
 }
 
+/// Whether what is recorded is this process's.
+fn is_own() -> bool {
+    let owner = OWNER.load(Ordering::Relaxed);
+    owner == 0 || owner == std::process::id()
+}
+
 /// The recorder, if calls are recorded; the first call asks the environment.
 fn recorder() -> Option<MappedMutexGuard<'static, Recorder>> {
+    if !is_own() {
+        return None;
+    }
     let mut state = STATE.lock();
     if matches!(*state, State::Unasked) {
         *state = asked();
         ON.store(matches!(*state, State::On(_)), Ordering::Relaxed);
     }
     MutexGuard::try_map(state, |state| match state {
-        // A forked process has the file too, but it is not its own.
-        State::On(recorder) if recorder.process == std::process::id() => Some(&mut **recorder),
+        State::On(recorder) => Some(&mut **recorder),
         _ => None,
     })
     .ok()
@@ -197,6 +210,7 @@ fn asked() -> State {
     let Some(path) = std::env::var_os(VARIABLE).filter(|path| !path.is_empty()) else { return State::Off };
     match create(path.as_ref()).and_then(Recorder::new) {
         Ok(recorder) => {
+            OWNER.store(std::process::id(), Ordering::Relaxed);
             flush_at_exit();
             State::On(Box::new(recorder))
         }
@@ -229,7 +243,7 @@ fn flush_at_exit() {
     }
     extern "C" fn at_exit() {
         // A program may exit in a signal handler that interrupted this very thread amid a call.
-        guarded(|| STATE.try_lock_for(EXIT_WAITS).map(end));
+        guarded(|| is_own().then(|| STATE.try_lock_for(EXIT_WAITS).map(end)));
     }
     // SAFETY: the function stays as long as the library; it is called before the library goes.
     unsafe { atexit(at_exit) };

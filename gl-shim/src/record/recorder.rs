@@ -32,8 +32,6 @@ pub struct Recorder {
     calls: u32,
     /// Whether the file takes no more.
     pub failed: bool,
-    /// The process that records.
-    pub process: u32,
 }
 
 impl Recorder {
@@ -42,7 +40,7 @@ impl Recorder {
         let program = std::env::current_exe().unwrap_or_default();
         let properties = [("process.name", &*program.to_string_lossy())];
         let writer = TraceWriter::new(file, &properties)?;
-        Ok(Recorder { writer, flushed: Instant::now(), calls: 0, failed: false, process: std::process::id() })
+        Ok(Recorder { writer, flushed: Instant::now(), calls: 0, failed: false })
     }
 
     /// Writes what a call is given, and returns its number.

@@ -23,13 +23,18 @@ pub unsafe extern "C" fn glXChooseVisual(
         let (known, wanted) =
             unsafe { (displays::get(display)?, attributes::read(list, choose::VISUAL_FLAGS)) };
         let config = choose::visual(known.screen(screen)?.configs, &wanted)?;
-        let info = known.visual(config)?;
-        known.choose(config);
-        // SAFETY: null is allowed.
-        Some(unsafe { array(&[info], null_mut()) })
+        chosen(&known, config)
     })
     .flatten()
     .unwrap_or(null_mut())
+}
+
+/// The visual of a configuration, which a context made with that visual will have.
+fn chosen(known: &displays::OpenDisplay, config: &'static Config) -> Option<*mut VisualInfo> {
+    let info = known.visual(config)?;
+    known.choose(config);
+    // SAFETY: null is allowed.
+    Some(unsafe { array(&[info], null_mut()) })
 }
 
 /// glXGetConfig. The result is an error code.
@@ -160,10 +165,7 @@ pub unsafe extern "C" fn glXGetVisualFromFBConfig(
         let config = config::from_handle(config)?;
         // SAFETY: the program vouches for its display.
         let known = unsafe { displays::get(display) }?;
-        let info = known.visual(config)?;
-        known.choose(config);
-        // SAFETY: null is allowed.
-        Some(unsafe { array(&[info], null_mut()) })
+        chosen(&known, config)
     })
     .flatten()
     .unwrap_or(null_mut())

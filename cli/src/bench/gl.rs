@@ -7,7 +7,7 @@ use std::process::Command;
 use clap::Args;
 use serde::Serialize;
 
-use super::gl_client::{CASES, Figures, Yardstick};
+use super::gl_client::{CASES, EMPTY_CALL, Figures, Yardstick};
 use crate::failure::Failure;
 use crate::{libdir, output};
 
@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                     row.case, row.afterglow_ns, row.mesa_ns, copy, row.ratio, row.goal
                 )?;
             }
-            Ok(())
+            writeln!(out, "{EMPTY_CALL} takes {:.1} ns of each call", ours.of(EMPTY_CALL))
         })?;
     }
     arguments.json.as_deref().map_or(Ok(()), |path| output::write_json(path, &rows))

@@ -67,6 +67,9 @@ pub const CASES: [Case; 7] = [
     copying("glTexSubImage2D 256x256", "memcpy of the texels", 1.2),
 ];
 
+/// The case that calls a function that does nothing: the part of each call that no library can save.
+pub const EMPTY_CALL: &str = "an empty call";
+
 /// Nanoseconds a call, by case.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Figures(BTreeMap<String, f64>);
@@ -162,6 +165,8 @@ impl Client<'_> {
         let mut add = |name: &str, ns: f64| {
             figures.0.insert(name.to_owned(), ns);
         };
+        let empty = black_box(nothing as extern "C" fn(f32, f32, f32, f32));
+        add(EMPTY_CALL, self.time(100_000, || empty(black_box(0.5), 0.25, 1.0, 1.0)));
         // SAFETY: a context is current; pointers point to as much as the calls read.
         unsafe {
             add("glColor4f", self.time(100_000, || (self.color)(black_box(0.5), 0.25, 1.0, 1.0)));
@@ -256,6 +261,8 @@ impl Client<'_> {
         }
     }
 }
+
+extern "C" fn nothing(_: f32, _: f32, _: f32, _: f32) {}
 
 /// Nanoseconds to copy so many bytes to memory that is not in a cache: each copy of a batch has its own place.
 fn copy_time(bytes: usize, batch: usize) -> f64 {

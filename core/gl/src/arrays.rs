@@ -113,6 +113,17 @@ impl ClientState {
         }
     }
 
+    /// Where in the element buffer `pointer` is, if there is one.
+    pub fn element_offset(&self, pointer: &Pointer) -> Option<usize> {
+        self.element_buffer.as_ref()?;
+        match pointer {
+            Pointer::Offset(offset) => usize::try_from(*offset).ok(),
+            Pointer::Null => Some(0),
+            Pointer::Memory(offset) => Some(*offset),
+            Pointer::Blob(_) => None,
+        }
+    }
+
     /// Forgets a deleted buffer.
     pub fn unbind(&mut self, name: u32) {
         for binding in [&mut self.array_buffer, &mut self.element_buffer] {

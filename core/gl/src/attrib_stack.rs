@@ -5,7 +5,7 @@ use afterglow_api::constants::*;
 use crate::arrays::ClientState;
 use crate::context::Context;
 use crate::emit::Dirty;
-use crate::frame::TEXTURE_UNITS;
+use crate::frame::{SLOTS, TEXTURE_UNITS};
 use crate::limits;
 use crate::pixel::{PixelStore, TransferModes};
 use crate::shared::SharedTexture;
@@ -167,7 +167,7 @@ impl Context {
             }
         }
         self.dirty(Dirty::all());
-        self.emitter.changed = u16::MAX;
+        self.emitter.changed = [true; SLOTS];
     }
 
     fn restore(&mut self, mask: u32, from: State) {

@@ -1,6 +1,9 @@
 //! Current attributes, Begin and End.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use afterglow_api::constants::*;
+use glam::Vec4;
 
 use crate::assemble::{self, PolygonMode};
 use crate::context::{Context, Params};
@@ -40,49 +43,65 @@ impl Context {
     }
 
     /// glVertex.
+    // Components are moved one by one: an array that some path needs in memory would go through it on all of them.
     #[inline(always)]
     pub fn vertex(&mut self, [x, y, z, w]: [f32; 4]) {
-        if self.immediate.mode.is_some() {
-            self.immediate.vertex([x, y, z, w], self.state.current.edge_flag);
-        } else {
-            self.loose_vertex(x, y, z, w);
+        if !self.immediate.push_quickly([x, y, z, w], &self.state.current.attributes) {
+            self.long_vertex(x, y, z, w);
         }
     }
 
-    /// A vertex outside of Begin and End: it counts only in a list that may be called inside.
+    /// A vertex the long way. Outside of Begin and End it counts only in a list that may be called inside.
     #[cold]
-    fn loose_vertex(&mut self, x: f32, y: f32, z: f32, w: f32) {
-        if let Some(list) = &mut self.list {
-            list.loose_vertex([x, y, z, w]);
+    extern "C" fn long_vertex(&mut self, x: f32, y: f32, z: f32, w: f32) {
+        self.contained(|gl| {
+            let (position, edge) = ([x, y, z, w], gl.state.current.edge_flag);
+            match &mut gl.list {
+                Some(list) if gl.immediate.mode.is_none() => list.loose_vertex(position),
+                Some(list) => gl.immediate.push(position, edge, list.inside()),
+                None if gl.immediate.mode.is_none() => {}
+                None => gl.immediate.push(position, edge, &gl.state.current.attributes),
+            }
+        });
+    }
+
+    /// Lets no panic out: then those that call the long way need no landing pad, and can go there by a jump.
+    fn contained(&mut self, work: impl FnOnce(&mut Self)) {
+        if catch_unwind(AssertUnwindSafe(|| work(self))).is_err() {
+            tracing::error!("a bug in Afterglow: a vertex was dropped");
+            self.record_error(GL_INVALID_OPERATION);
         }
     }
 
     /// All other attributes of vertices, by [`Slot`].
-    // Components are moved one by one: an array that some path needs in memory would go through it on all of them.
     #[inline(always)]
     pub fn attribute(&mut self, slot: usize, [x, y, z, w]: [f32; 4]) {
-        self.immediate.attribute(slot, [x, y, z, w], &self.state.current.attributes[slot]);
-        if self.list.is_some() {
-            return self.attribute_in_list(slot, x, y, z, w);
+        if !self.immediate.is_quick(slot, [x, y, z, w]) {
+            return self.long_attribute(slot, x, y, z, w);
         }
         self.set_current(slot, [x, y, z, w]);
     }
 
+    /// An attribute the long way: the first of a primitive, a wider one, or one that a list takes note of.
     #[cold]
-    fn attribute_in_list(&mut self, slot: usize, x: f32, y: f32, z: f32, w: f32) {
-        let value = [x, y, z, w];
-        let Some(list) = &mut self.list else { return };
-        list.attribute(slot, value, self.immediate.mode.is_some());
-        if list.executes {
-            self.set_current(slot, value);
-        }
+    extern "C" fn long_attribute(&mut self, slot: usize, x: f32, y: f32, z: f32, w: f32) {
+        self.contained(|gl| {
+            let value = [x, y, z, w];
+            gl.immediate.admit(slot, value, gl.state.current.attributes[slot].to_array());
+            if let Some(list) = &mut gl.list {
+                list.attribute(slot, value, gl.immediate.mode.is_some());
+                if !list.executes {
+                    return;
+                }
+            }
+            gl.set_current(slot, value);
+        });
     }
 
     #[inline(always)]
     pub(crate) fn set_current(&mut self, slot: usize, [x, y, z, w]: [f32; 4]) {
-        let current = &mut self.state.current.attributes[slot];
-        (current[0], current[1], current[2], current[3]) = (x, y, z, w);
-        self.emitter.changed |= 1 << slot;
+        self.state.current.attributes[slot] = Vec4::new(x, y, z, w);
+        self.emitter.changed[slot] = true;
     }
 
     /// glColor.

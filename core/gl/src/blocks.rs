@@ -39,7 +39,9 @@ impl Context {
         let units = &self.state.texture.units;
         Environment {
             env_color: std::array::from_fn(|i| units[i].env_color),
-            lod_bias: std::array::from_fn(|i| units[i].lod_bias + self.textures.lod_bias(&units[i], i)),
+            lod_bias: std::array::from_fn(|i| {
+                units[i].lod_bias + self.sampled(i).map_or(0.0, |sampled| sampled.lod_bias)
+            }),
             fog_color: fog.color,
             fog_density: fog.density,
             fog_start: fog.start,
@@ -59,7 +61,7 @@ impl Context {
     }
 
     pub(crate) fn current_attributes(&self) -> CurrentAttributes {
-        let a = &self.state.current.attributes;
+        let a = self.state.current.attributes.map(|value| value.to_array());
         CurrentAttributes {
             normal: a[Slot::Normal as usize],
             color: a[Slot::Color as usize],
@@ -69,12 +71,8 @@ impl Context {
         }
     }
 
-    pub(crate) fn fixed_state(&self, kind: Kind) -> FixedState {
-        let units = std::array::from_fn(|i| self.unit_words(i));
-        FixedState {
-            words: StateWords { global: self.global_words(kind), units },
-            raster: self.raster_state(kind),
-        }
+    pub(crate) fn state_words(&self, kind: Kind) -> StateWords {
+        StateWords { global: self.global_words(kind), units: std::array::from_fn(|i| self.unit_words(i)) }
     }
 
     fn global_words(&self, kind: Kind) -> GlobalWords {
@@ -133,17 +131,17 @@ impl Context {
 
     fn unit_words(&self, i: usize) -> UnitWords {
         let unit = &self.state.texture.units[i];
-        let Some((dimension, base_format)) = self.realized(i) else { return UnitWords::default() };
+        let Some(sampled) = self.sampled(i) else { return UnitWords::default() };
         let mut words = unit.words;
-        words.set_target(dimension as u32);
-        words.set_base_format(base_format as u32);
+        words.set_target(sampled.dimension as u32);
+        words.set_base_format(sampled.base_format as u32);
         let mode = |c: usize| if unit.gen_enabled & (1 << c) == 0 { 0 } else { gen_mode(unit.gen_mode[c]) };
         words.set_gen_s(mode(0));
         words.set_gen_t(mode(1));
         words.set_gen_r(mode(2));
         words.set_gen_q(mode(3));
         words.set_matrix((self.matrices.texture[i].top() != Mat4::IDENTITY).into());
-        if let Some((compare, depth_mode)) = self.textures.depth_words(unit, i) {
+        if let Some((compare, depth_mode)) = sampled.depth_words {
             words.set_compare(compare);
             words.set_depth_mode(depth_mode);
         }
@@ -155,7 +153,7 @@ impl Context {
         words
     }
 
-    fn raster_state(&self, kind: Kind) -> RasterState {
+    pub(crate) fn raster_state(&self, kind: Kind) -> RasterState {
         let (caps, polygon, line) = (self.state.caps, &self.state.polygon, &self.state.line);
         let offset_cap = match kind {
             Kind::Polygons(PolygonMode::Fill) => Some(Cap::PolygonOffsetFill),

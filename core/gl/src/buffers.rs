@@ -4,19 +4,42 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use afterglow_api::constants::*;
-use parking_lot::Mutex;
+use parking_lot::{Mutex, MutexGuard};
 
 use crate::context::Context;
 use crate::limits;
 use crate::shared::SharedBuffer;
 
-/// A buffer object's data store. Every change gives it a new version, unique in the process.
+/// A buffer object. Every change gives it a new version, unique in the process.
+#[derive(Debug, Default)]
+pub struct Buffer {
+    /// Draws ask for it without a lock: a program that changes a buffer on another thread meanwhile has to wait for
+    /// that itself.
+    version: AtomicU64,
+    store: Mutex<BufferObject>,
+}
+
+impl Buffer {
+    /// Changes with the content.
+    pub fn version(&self) -> u64 {
+        self.version.load(Ordering::Acquire)
+    }
+
+    /// The data store.
+    pub fn lock(&self) -> MutexGuard<'_, BufferObject> {
+        self.store.lock()
+    }
+
+    fn touch(&self) {
+        self.version.store(VERSIONS.fetch_add(1, Ordering::Relaxed), Ordering::Release);
+    }
+}
+
+/// A buffer object's data store.
 #[derive(Debug)]
 pub struct BufferObject {
     /// The bytes.
     pub data: Vec<u8>,
-    /// Changes with the content.
-    pub version: u64,
     usage: u32,
     access: u32,
     mapped: bool,
@@ -26,19 +49,7 @@ static VERSIONS: AtomicU64 = AtomicU64::new(1);
 
 impl Default for BufferObject {
     fn default() -> BufferObject {
-        BufferObject {
-            data: Vec::new(),
-            version: 0,
-            usage: GL_STATIC_DRAW,
-            access: GL_READ_WRITE,
-            mapped: false,
-        }
-    }
-}
-
-impl BufferObject {
-    fn touch(&mut self) {
-        self.version = VERSIONS.fetch_add(1, Ordering::Relaxed);
+        BufferObject { data: Vec::new(), usage: GL_STATIC_DRAW, access: GL_READ_WRITE, mapped: false }
     }
 }
 
@@ -79,7 +90,7 @@ impl Context {
         *slot = (name != 0).then(|| {
             let mut names = self.shared.lock();
             let entry = names.buffers.entry(name).or_default();
-            (name, entry.get_or_insert_with(|| Arc::new(Mutex::default())).clone())
+            (name, entry.get_or_insert_with(Arc::<Buffer>::default).clone())
         });
     }
 
@@ -105,27 +116,27 @@ impl Context {
         if size > limits::BUFFER_BYTES {
             return self.record_error(GL_OUT_OF_MEMORY);
         }
-        let mut buffer = buffer.lock();
-        buffer.data.clear();
-        buffer.data.extend_from_slice(data.map_or(&[][..], |d| &d[..d.len().min(size)]));
-        buffer.data.resize(size, 0);
-        (buffer.usage, buffer.mapped, buffer.access) = (usage, false, GL_READ_WRITE);
+        let mut store = buffer.lock();
+        store.data.clear();
+        store.data.extend_from_slice(data.map_or(&[][..], |d| &d[..d.len().min(size)]));
+        store.data.resize(size, 0);
+        (store.usage, store.mapped, store.access) = (usage, false, GL_READ_WRITE);
         buffer.touch();
     }
 
     /// glBufferSubData.
     pub fn buffer_sub_data(&mut self, target: u32, offset: isize, data: &[u8]) {
         let Some(buffer) = self.bound_buffer(target) else { return };
-        let mut buffer = buffer.lock();
-        if buffer.mapped {
-            drop(buffer);
+        let mut store = buffer.lock();
+        if store.mapped {
+            drop(store);
             return self.record_error(GL_INVALID_OPERATION);
         }
         let range = usize::try_from(offset).ok().and_then(|o| Some(o..o.checked_add(data.len())?));
-        match range.and_then(|range| buffer.data.get_mut(range)) {
+        match range.and_then(|range| store.data.get_mut(range)) {
             Some(target) => target.copy_from_slice(data),
             None => {
-                drop(buffer);
+                drop(store);
                 return self.record_error(GL_INVALID_VALUE);
             }
         }
@@ -175,13 +186,13 @@ impl Context {
     /// glUnmapBuffer.
     pub fn unmap_buffer(&mut self, target: u32) -> bool {
         let Some(buffer) = self.bound_buffer(target) else { return false };
-        let mut buffer = buffer.lock();
-        if !buffer.mapped {
-            drop(buffer);
+        let mut store = buffer.lock();
+        if !store.mapped {
+            drop(store);
             self.record_error(GL_INVALID_OPERATION);
             return false;
         }
-        buffer.mapped = false;
+        store.mapped = false;
         buffer.touch();
         true
     }

@@ -1,10 +1,11 @@
 //! Drawing from arrays. Arrays in buffer objects that did not change since they were drawn before
 //! become retained ranges; all others are copied into the frame.
 
+use std::hash::{BuildHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use afterglow_api::constants::*;
-use hashbrown::HashMap;
+use hashbrown::{DefaultHashBuilder, HashMap};
 
 use crate::arrays::{EDGE_FLAG, Pointer, Source};
 use crate::assemble::{self, PolygonMode};
@@ -24,6 +25,7 @@ const MANY: usize = 64;
 #[derive(Debug, Default)]
 pub struct RangeCache {
     ranges: HashMap<u64, Option<Arc<RetainedRange>>>,
+    hasher: DefaultHashBuilder,
 }
 
 /// Which vertices a draw takes, in order.
@@ -51,7 +53,10 @@ impl Context {
         let (Ok(first), Ok(count)) = (usize::try_from(first), usize::try_from(count)) else {
             return self.record_error(GL_INVALID_VALUE);
         };
-        self.draw_selection(mode, Selection::Consecutive { first, count });
+        let key = self.retained_key(mode, (first, count));
+        if !self.draw_known(mode, key) {
+            self.draw_selection(mode, Selection::Consecutive { first, count }, key);
+        }
     }
 
     /// glDrawElements.
@@ -66,13 +71,25 @@ impl Context {
         if count > limits::DRAW_VERTICES {
             return self.record_error(GL_OUT_OF_MEMORY);
         }
+        let mut key = match (&self.client.element_buffer, self.client.element_offset(&indices)) {
+            (Some((_, buffer)), Some(offset)) => {
+                self.retained_key(mode, (buffer.version(), offset, kind, count))
+            }
+            _ => None,
+        };
+        if self.draw_known(mode, key) {
+            return;
+        }
         let mut values = std::mem::take(&mut self.scratch.indices);
         values.clear();
         if self.read_indices(count, kind, indices, &mut values) && !values.is_empty() {
-            let (least, greatest) = values.iter().fold((u32::MAX, 0), |(l, g), &i| (l.min(i), g.max(i)));
-            let span = (greatest - least) as usize + 1;
-            let selection = Selection::Indexed { indices: &values, least: least as usize, count: span };
-            self.draw_selection(mode, selection);
+            key = key.or_else(|| self.retained_key(mode, &values));
+            if !self.draw_known(mode, key) {
+                let (least, greatest) = values.iter().fold((u32::MAX, 0), |(l, g), &i| (l.min(i), g.max(i)));
+                let span = (greatest - least) as usize + 1;
+                let selection = Selection::Indexed { indices: &values, least: least as usize, count: span };
+                self.draw_selection(mode, selection, key);
+            }
         }
         self.scratch.indices = values;
     }
@@ -137,7 +154,22 @@ impl Context {
         true
     }
 
-    fn draw_selection(&mut self, mode: u32, selection: Selection) {
+    /// Draws what was kept under the key, if there is such a range.
+    fn draw_known(&mut self, mode: u32, key: Option<u64>) -> bool {
+        let Some(key) = key else { return false };
+        let none = HashMap::with_hasher(self.ranges.hasher.clone());
+        let ranges = std::mem::replace(&mut self.ranges.ranges, none);
+        let known = ranges.get(&key).and_then(Option::as_ref);
+        if let Some(range) = known {
+            self.emit_retained(range, Kind::of(mode, PolygonMode::Fill));
+        }
+        let is_known = known.is_some();
+        self.ranges.ranges = ranges;
+        is_known
+    }
+
+    /// Draws from arrays; `key` names what is read, if it may be kept.
+    fn draw_selection(&mut self, mode: u32, selection: Selection, key: Option<u64>) {
         let (first, count) = selection.span();
         if count == 0 || !self.client.arrays[Slot::Position as usize].is_read() {
             return;
@@ -148,13 +180,6 @@ impl Context {
         let polygon_mode =
             if self.list.is_some() { PolygonMode::Fill } else { self.effective_polygon_mode() };
         let kind = Kind::of(mode, polygon_mode);
-        let key = self.retained_key(mode, &selection).filter(|_| {
-            self.list.is_none() && !matches!(kind, Kind::Polygons(PolygonMode::Line | PolygonMode::Point))
-        });
-        if let Some(Some(range)) = key.and_then(|key| self.ranges.ranges.get(&key)) {
-            let range = range.clone();
-            return self.emit_retained(&range, kind);
-        }
         if key.is_none() && self.draw_in_order(mode, &selection) {
             return;
         }
@@ -303,12 +328,7 @@ impl Context {
         out: &mut Vec<u32>,
     ) -> bool {
         let needed = count * component_bytes(kind);
-        let offset = match (&pointer, self.client.element_buffer.is_some()) {
-            (Pointer::Offset(offset), true) => Some(*offset as usize),
-            (Pointer::Null, true) => Some(0),
-            (Pointer::Memory(offset), true) => Some(*offset),
-            _ => None,
-        };
+        let offset = self.client.element_offset(&pointer);
         match (offset, &self.client.element_buffer, &pointer) {
             (Some(offset), Some((_, buffer)), _) => {
                 let buffer = buffer.lock();
@@ -327,25 +347,21 @@ impl Context {
         }
     }
 
-    /// Names what the draw would read, if all of it is in buffer objects.
-    fn retained_key(&self, mode: u32, selection: &Selection) -> Option<u64> {
-        let arrays = self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.is_read());
-        if arrays.clone().any(|(_, array)| !matches!(array.source, Source::Buffer(..))) {
+    /// Names what the draw would read, if all of it is in buffer objects; `selection` says which vertices. Only what
+    /// is drawn as it is has a name: no list is compiled, polygons are filled.
+    fn retained_key(&self, mode: u32, selection: impl Hash) -> Option<u64> {
+        let polygons = matches!(Kind::of(mode, PolygonMode::Fill), Kind::Polygons(_));
+        if self.list.is_some() || polygons && self.effective_polygon_mode() != PolygonMode::Fill {
             return None;
         }
-        let mut hasher = xxhash_rust::xxh3::Xxh3::new();
-        let (first, count) = selection.span();
-        hasher.update(bytemuck::cast_slice(&[u64::from(mode), first as u64, count as u64]));
-        if let Selection::Indexed { indices, .. } = selection {
-            hasher.update(bytemuck::cast_slice(indices));
-        }
-        for (slot, array) in arrays {
+        let mut hasher = self.ranges.hasher.build_hasher();
+        (mode, selection).hash(&mut hasher);
+        for (slot, array) in self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.is_read()) {
             let Source::Buffer(_, buffer, offset) = &array.source else { return None };
-            let shape = (slot as u64) << 48 | u64::from(array.size) << 40 | u64::from(array.kind);
-            let words = [buffer.lock().version, *offset, shape, array.stride.into()];
-            hasher.update(bytemuck::cast_slice(&words));
+            let shape = (slot as u64) << 56 | u64::from(array.size) << 48 | u64::from(array.kind);
+            (shape, buffer.version(), *offset, array.stride).hash(&mut hasher);
         }
-        Some(hasher.digest())
+        Some(hasher.finish())
     }
 }
 

@@ -10,13 +10,14 @@ use crate::context::Context;
 use crate::frame::*;
 use crate::limits;
 use crate::pixels::RenderMode;
-use crate::state::Cap;
+use crate::state::{Cap, TextureUnit};
 
 bitflags! {
     /// Groups of state that have changed since they were last written to the frame.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct Dirty: u16 {
-        const FIXED = 1;
+        /// What shaders compute.
+        const WORDS = 1;
         const VIEWPORT = 2;
         const BINDINGS = 4;
         const TRANSFORM = 8;
@@ -26,6 +27,8 @@ bitflags! {
         const TEXGEN = 128;
         const TEXTURE_MATRICES = 256;
         const CLIP_PLANES = 512;
+        /// Rasterization and what happens to fragments.
+        const RASTER = 1024;
     }
 }
 
@@ -69,17 +72,51 @@ pub struct Emitter {
     /// Groups that must be written again.
     pub dirty: Dirty,
     /// Attribute slots whose current value has changed since it was written.
-    pub changed: u16,
+    pub changed: [bool; SLOTS],
     kind: Kind,
+    /// Tables that are empty.
+    empty: Dirty,
+    fixed: FixedState,
     fixed_ids: HashMap<FixedState, u32>,
+    /// The id that another one took the place of.
+    fixed_before: u32,
     ids: Ids,
+    /// The draw that primitives of the same state continue.
+    open: OpenDraw,
     /// By the mode of glBegin: where in the frame's indices those of vertices in a row are, and how many.
     patterns: [(u32, u32); MODES],
-    /// Dimension and base format of what each unit samples.
-    realized: [Option<(Dimension, BaseFormat)>; TEXTURE_UNITS],
+    /// What each unit samples.
+    sampled: [Option<Sampled>; TEXTURE_UNITS],
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// What other state follows from the texture of a unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sampled {
+    pub dimension: Dimension,
+    pub base_format: BaseFormat,
+    /// Level bias of the texture.
+    pub lod_bias: f32,
+    /// Comparison and depth mode words, if it has depths.
+    pub depth_words: Option<(u32, u32)>,
+}
+
+/// A draw that was pushed last, if nothing came in between: all that a primitive must meet to continue it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct OpenDraw {
+    layout: VertexLayout,
+    topology: Topology,
+    /// Lengths of the frame's tables behind it.
+    operations: usize,
+    words: usize,
+    indices: usize,
+}
+
+impl OpenDraw {
+    const NONE: OpenDraw =
+        OpenDraw { layout: VertexLayout(0), topology: Topology::Points, operations: 0, words: 0, indices: 0 };
+}
+
+#[derive(Debug, Clone, Copy, Default)]
 struct Ids {
     fixed: u32,
     viewport: u32,
@@ -98,12 +135,16 @@ impl Default for Emitter {
     fn default() -> Emitter {
         Emitter {
             dirty: Dirty::all(),
-            changed: u16::MAX,
+            changed: [true; SLOTS],
             kind: Kind::Points,
+            empty: Dirty::all(),
+            fixed: FixedState::default(),
             fixed_ids: HashMap::new(),
+            fixed_before: 0,
             ids: Ids::default(),
+            open: OpenDraw::NONE,
             patterns: [(0, 0); MODES],
-            realized: [None; TEXTURE_UNITS],
+            sampled: [None; TEXTURE_UNITS],
         }
     }
 }
@@ -111,9 +152,10 @@ impl Default for Emitter {
 impl Emitter {
     /// All tables are empty again.
     pub fn start_frame(&mut self) {
-        self.dirty = Dirty::all();
-        self.changed = u16::MAX;
+        (self.dirty, self.empty) = (Dirty::all(), Dirty::all());
+        self.changed = [true; SLOTS];
         self.fixed_ids.clear();
+        self.open = OpenDraw::NONE;
         self.patterns = [(0, 0); MODES];
     }
 }
@@ -121,6 +163,12 @@ impl Emitter {
 fn push<T>(table: &mut Vec<T>, value: T) -> u32 {
     table.push(value);
     (table.len() - 1) as u32
+}
+
+/// Number of vertices in `words`. Frames have no more words than fit: dividing 32 bits takes half of the time of 64.
+fn vertex_count(words: &[u32], layout: VertexLayout) -> usize {
+    let words = u32::try_from(words.len()).unwrap_or(0);
+    words.checked_div(layout.stride() as u32).unwrap_or(0) as usize
 }
 
 impl Context {
@@ -143,13 +191,14 @@ impl Context {
         words: &[u32],
         edges: Option<&[bool]>,
     ) {
-        let count = words.len().checked_div(layout.stride()).unwrap_or(0);
+        let count = vertex_count(words, layout);
         let kind = Kind::of(mode, self.effective_polygon_mode());
         if !self.prepare(layout, kind, count) {
             return;
         }
-        let base = self.extend_vertices(layout, kind, words);
         let first_index = self.frame.indices.len();
+        let continued = self.extend_vertices(layout, kind, words);
+        let base = continued.unwrap_or(0);
         match kind {
             Kind::Polygons(polygon_mode @ (PolygonMode::Line | PolygonMode::Point)) => {
                 let flag = |i: usize| edges.is_none_or(|e| e.get(i).copied().unwrap_or(true));
@@ -158,7 +207,7 @@ impl Context {
             }
             _ => assemble::assemble(mode, count, |i| base + i as u32, &mut self.frame.indices),
         }
-        self.finish_draw(first_index, layout, kind, count);
+        self.finish_draw(first_index, layout, kind, count, continued);
     }
 
     /// Draws many vertices that `fill` appends to the frame's words, one after the other, sent as `mode`. `false`: such
@@ -195,14 +244,15 @@ impl Context {
 
     /// Draws vertices with indices that are assembled already, as a list or an array draw has them.
     pub(crate) fn emit_indexed(&mut self, layout: VertexLayout, kind: Kind, words: &[u32], indices: &[u32]) {
-        let count = words.len().checked_div(layout.stride()).unwrap_or(0);
+        let count = vertex_count(words, layout);
         if !self.prepare(layout, kind, count) {
             return;
         }
-        let base = self.extend_vertices(layout, kind, words);
         let first_index = self.frame.indices.len();
+        let continued = self.extend_vertices(layout, kind, words);
+        let base = continued.unwrap_or(0);
         self.frame.indices.extend(indices.iter().map(|i| i + base));
-        self.finish_draw(first_index, layout, kind, count);
+        self.finish_draw(first_index, layout, kind, count, continued);
     }
 
     /// Draws a range that outlives the frame.
@@ -234,56 +284,59 @@ impl Context {
         true
     }
 
-    /// Appends vertices, to the last draw's if they continue it; the index of the first.
-    fn extend_vertices(&mut self, layout: VertexLayout, kind: Kind, words: &[u32]) -> u32 {
-        let end = self.frame.words.len() as u32;
-        self.frame.words.extend_from_slice(words);
-        match self.continued_draw(layout, kind, end, self.frame.indices.len()) {
-            Some(VertexSource::Arena { vertices, .. }) => *vertices,
-            _ => 0,
-        }
-    }
-
-    /// The vertices of the last draw, if it meets the same state and ends where the frame's words and indices did.
-    fn continued_draw(
-        &mut self,
-        layout: VertexLayout,
-        kind: Kind,
-        end: u32,
-        indices_end: usize,
-    ) -> Option<&mut VertexSource> {
-        let ids = self.emitter.ids;
-        let Some(Operation::Draw(draw)) = self.frame.operations.last_mut() else { return None };
-        let same = draw.layout == layout && draw.topology == kind.topology() && Ids::of(draw) == ids;
-        match draw.source {
-            VertexSource::Arena { first_word, vertices, first_index }
-                if same
-                    && first_word + vertices * layout.stride() as u32 == end
-                    && (first_index + draw.index_count) as usize == indices_end =>
+    /// Appends vertices; the number of those that the open draw has, if they continue it.
+    fn extend_vertices(&mut self, layout: VertexLayout, kind: Kind, words: &[u32]) -> Option<u32> {
+        let frame = &mut self.frame;
+        let met = OpenDraw {
+            layout,
+            topology: kind.topology(),
+            operations: frame.operations.len(),
+            words: frame.words.len(),
+            indices: frame.indices.len(),
+        };
+        frame.words.extend_from_slice(words);
+        match frame.operations.last() {
+            Some(Operation::Draw(Draw { source: VertexSource::Arena { vertices, .. }, .. }))
+                if met == self.emitter.open =>
             {
-                Some(&mut draw.source)
+                Some(*vertices)
             }
             _ => None,
         }
     }
 
-    fn finish_draw(&mut self, first_index: usize, layout: VertexLayout, kind: Kind, count: usize) {
+    /// Draws the indices from `first_index` on, or lets the open draw go on to `count` more vertices.
+    fn finish_draw(
+        &mut self,
+        first_index: usize,
+        layout: VertexLayout,
+        kind: Kind,
+        count: usize,
+        continued: Option<u32>,
+    ) {
         let added = (self.frame.indices.len() - first_index) as u32;
-        let first_word = (self.frame.words.len() - count * layout.stride()) as u32;
-        if let Some(VertexSource::Arena { vertices, .. }) =
-            self.continued_draw(layout, kind, first_word, first_index)
-        {
-            *vertices += count as u32;
-            if let Some(Operation::Draw(draw)) = self.frame.operations.last_mut() {
+        if continued.is_some() {
+            if let Some(Operation::Draw(draw)) = self.frame.operations.last_mut()
+                && let VertexSource::Arena { vertices, .. } = &mut draw.source
+            {
+                *vertices += count as u32;
                 draw.index_count += added;
             }
-            return;
-        }
-        if added > 0 {
+        } else if added > 0 {
+            let first_word = (self.frame.words.len() - count * layout.stride()) as u32;
             let source =
                 VertexSource::Arena { first_word, vertices: count as u32, first_index: first_index as u32 };
             self.push_draw(source, layout, kind, added);
+        } else {
+            return;
         }
+        self.emitter.open = OpenDraw {
+            layout,
+            topology: kind.topology(),
+            operations: self.frame.operations.len(),
+            words: self.frame.words.len(),
+            indices: self.frame.indices.len(),
+        };
     }
 
     fn push_draw(&mut self, source: VertexSource, layout: VertexLayout, kind: Kind, index_count: u32) {
@@ -309,83 +362,109 @@ impl Context {
 
     /// Writes what has changed, and what this draw needs, to the frame's tables.
     fn validate(&mut self, layout: VertexLayout, kind: Kind) {
-        let mut dirty = self.emitter.dirty;
-        if dirty.contains(Dirty::BINDINGS) {
-            self.write_bindings();
-            dirty |= self.emitter.dirty & Dirty::FIXED;
-        }
-        if dirty.contains(Dirty::FIXED) || kind != self.emitter.kind {
+        if kind != self.emitter.kind {
             self.emitter.kind = kind;
-            let fixed = self.fixed_state(kind);
-            let table = &mut self.frame.fixed;
-            self.emitter.ids.fixed =
-                *self.emitter.fixed_ids.entry(fixed).or_insert_with(|| push(table, fixed));
+            self.emitter.dirty |= Dirty::WORDS | Dirty::RASTER;
         }
-        let absent = (0..SLOTS).filter(|&s| layout.format(s) == Format::Absent).fold(0, |m, s| m | 1 << s);
-        if self.emitter.changed & absent != 0 || self.frame.current.is_empty() {
+        if !self.emitter.dirty.is_empty() {
+            self.write_tables(kind);
+        }
+        let absent = |slot: usize| layout.format(slot) == Format::Absent;
+        let has_changed = |slot: usize| self.emitter.changed[slot] && absent(slot);
+        if self.emitter.changed != [false; SLOTS]
+            && ((0..SLOTS).any(has_changed) || self.frame.current.is_empty())
+        {
             let block = self.current_attributes();
+            self.emitter.open = OpenDraw::NONE;
             self.emitter.ids.current = push(&mut self.frame.current, block);
-            self.emitter.changed = 0;
-        }
-        self.emitter.dirty = Dirty::empty();
-        if !dirty.is_empty() {
-            self.write_blocks(dirty);
+            self.emitter.changed = [false; SLOTS];
         }
     }
 
-    /// Writes the blocks of `dirty`. Blocks that no enabled function reads stay dirty, but every table
-    /// has at least one entry.
-    fn write_blocks(&mut self, dirty: Dirty) {
-        let lighting = self.state.caps.has(Cap::Lighting);
-        let frame = &mut self.frame;
-        let mut needs = |group: Dirty, used: bool, empty: bool| {
-            let write = dirty.contains(group) && (used || empty);
-            if dirty.contains(group) && !write {
-                self.emitter.dirty |= group;
+    fn write_tables(&mut self, kind: Kind) {
+        if self.emitter.dirty.contains(Dirty::BINDINGS) {
+            self.write_bindings();
+        }
+        let dirty = self.emitter.dirty;
+        if dirty.intersects(Dirty::WORDS | Dirty::RASTER) {
+            if dirty.contains(Dirty::WORDS) {
+                self.emitter.fixed.words = self.state_words(kind);
             }
-            write
+            if dirty.contains(Dirty::RASTER) {
+                self.emitter.fixed.raster = self.raster_state(kind);
+            }
+            self.find_fixed();
+        }
+        // Blocks that no enabled function reads stay dirty, but every table has at least one entry.
+        let written = dirty & (self.read_groups() | self.emitter.empty);
+        let blocks = written & !(Dirty::BINDINGS | Dirty::WORDS | Dirty::RASTER);
+        if !blocks.is_empty() {
+            self.emitter.open = OpenDraw::NONE;
+            self.write_blocks(blocks);
+        }
+        self.emitter.dirty = dirty & !written;
+        self.emitter.empty = Dirty::empty();
+    }
+
+    /// Names the fixed state. Programs often switch something on and off again: then it is the one before last.
+    fn find_fixed(&mut self) {
+        let (emitter, table) = (&mut self.emitter, &mut self.frame.fixed);
+        let is_at = |id: u32| table.get(id as usize) == Some(&emitter.fixed);
+        if is_at(emitter.ids.fixed) {
+            return;
+        }
+        let id = if is_at(emitter.fixed_before) {
+            emitter.fixed_before
+        } else {
+            *emitter.fixed_ids.entry(emitter.fixed).or_insert_with(|| push(table, emitter.fixed))
         };
-        let viewport = needs(Dirty::VIEWPORT, true, false);
-        let transform = needs(Dirty::TRANSFORM, true, false);
-        let environment = needs(Dirty::ENVIRONMENT, true, false);
-        let lights = needs(Dirty::LIGHTS, lighting, frame.lights.is_empty());
-        let material = needs(Dirty::MATERIAL, lighting, frame.materials.is_empty());
-        let units = &self.state.texture.units;
-        let texgen = needs(Dirty::TEXGEN, units.iter().any(|u| u.gen_enabled != 0), frame.texgens.is_empty());
-        let matrices = needs(Dirty::TEXTURE_MATRICES, true, false);
-        let clip = self.state.transform.clip_enabled != 0;
-        let clip = needs(Dirty::CLIP_PLANES, clip, frame.clip_planes.is_empty());
-        if viewport {
+        emitter.open = OpenDraw::NONE;
+        emitter.fixed_before = std::mem::replace(&mut emitter.ids.fixed, id);
+    }
+
+    /// Groups that an enabled function reads.
+    fn read_groups(&self) -> Dirty {
+        let mut read = Dirty::all() & !(Dirty::LIGHTS | Dirty::MATERIAL | Dirty::TEXGEN | Dirty::CLIP_PLANES);
+        let generates = |unit: &TextureUnit| unit.gen_enabled != 0;
+        read.set(Dirty::LIGHTS | Dirty::MATERIAL, self.state.caps.has(Cap::Lighting));
+        read.set(Dirty::TEXGEN, self.state.texture.units.iter().any(generates));
+        read.set(Dirty::CLIP_PLANES, self.state.transform.clip_enabled != 0);
+        read
+    }
+
+    /// Writes the blocks of these groups.
+    fn write_blocks(&mut self, groups: Dirty) {
+        if groups.contains(Dirty::VIEWPORT) {
             let block = self.viewport_block();
             self.emitter.ids.viewport = push(&mut self.frame.viewports, block);
         }
-        if transform {
+        if groups.contains(Dirty::TRANSFORM) {
             let block = self.transform_block();
             self.emitter.ids.transform = push(&mut self.frame.transforms, block);
         }
-        if environment {
+        if groups.contains(Dirty::ENVIRONMENT) {
             let block = self.environment_block();
             self.emitter.ids.environment = push(&mut self.frame.environments, block);
         }
-        if lights {
+        if groups.contains(Dirty::LIGHTS) {
             let block = self.lights_block();
             self.emitter.ids.lights = push(&mut self.frame.lights, block);
         }
-        if material {
+        if groups.contains(Dirty::MATERIAL) {
             self.emitter.ids.material = push(&mut self.frame.materials, self.state.lighting.material);
         }
-        if texgen {
+        if groups.contains(Dirty::TEXGEN) {
             let units = std::array::from_fn(|i| self.state.texture.units[i].gen_planes);
             self.emitter.ids.texgen = push(&mut self.frame.texgens, TexGen { units });
         }
-        if matrices {
+        if groups.contains(Dirty::TEXTURE_MATRICES) {
             let units = std::array::from_fn(|i| Matrix {
                 columns: self.matrices.texture[i].top().to_cols_array_2d(),
             });
             self.emitter.ids.texture_matrices =
                 push(&mut self.frame.texture_matrices, TextureMatrices { units });
         }
-        if clip {
+        if groups.contains(Dirty::CLIP_PLANES) {
             let plane =
                 |i: usize| Plane { coefficients: self.state.transform.clip_planes[i].map(|v| v as f32) };
             let planes = std::array::from_fn(plane);
@@ -396,23 +475,27 @@ impl Context {
     /// Makes sure that the enabled textures have images, and writes what the units sample.
     fn write_bindings(&mut self) {
         let mut bindings: Bindings = [None; TEXTURE_UNITS];
-        let mut realized = [None; TEXTURE_UNITS];
+        let mut sampled = [None; TEXTURE_UNITS];
         for unit in 0..TEXTURE_UNITS {
             if let Some(texture) = self.textures.enabled(&self.state.texture.units[unit], unit) {
                 let mut texture = texture.lock();
                 if let Some(image) = texture.realize(&mut self.frame.operations) {
-                    realized[unit] = Some((image.shape.dimension, image.base_format));
+                    sampled[unit] = Some(Sampled {
+                        dimension: image.shape.dimension,
+                        base_format: image.base_format,
+                        lod_bias: texture.lod_bias(),
+                        depth_words: texture.depth_words(),
+                    });
                     bindings[unit] = Some(TextureBinding { image: image.image, sampler: texture.sampler() });
                 }
             }
         }
-        if realized != self.emitter.realized {
-            self.emitter.realized = realized;
-            self.emitter.dirty |= Dirty::FIXED;
+        if sampled != self.emitter.sampled {
+            self.emitter.sampled = sampled;
+            self.emitter.dirty |= Dirty::WORDS | Dirty::ENVIRONMENT;
         }
-        // Compare modes live in the texture and are part of what is computed.
-        self.emitter.dirty |= Dirty::FIXED;
         if self.frame.bindings.last() != Some(&bindings) {
+            self.emitter.open = OpenDraw::NONE;
             push(&mut self.frame.bindings, bindings);
         }
         self.emitter.ids.bindings = self.frame.bindings.len() as u32 - 1;
@@ -425,26 +508,8 @@ impl Context {
         (ids.fixed, ids.viewport, ids.bindings, ids.environment, ids.current)
     }
 
-    /// What each unit samples, if anything.
-    pub(crate) fn realized(&self, unit: usize) -> Option<(Dimension, BaseFormat)> {
-        self.emitter.realized[unit]
-    }
-}
-
-impl Ids {
-    fn of(draw: &Draw) -> Ids {
-        Ids {
-            fixed: draw.fixed,
-            viewport: draw.viewport,
-            bindings: draw.bindings,
-            transform: draw.transform,
-            lights: draw.lights,
-            material: draw.material,
-            environment: draw.environment,
-            texgen: draw.texgen,
-            texture_matrices: draw.texture_matrices,
-            clip_planes: draw.clip_planes,
-            current: draw.current,
-        }
+    /// What a unit samples, if anything.
+    pub(crate) fn sampled(&self, unit: usize) -> Option<Sampled> {
+        self.emitter.sampled[unit]
     }
 }

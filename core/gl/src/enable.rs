@@ -51,22 +51,22 @@ impl Context {
             None => self.record_error(GL_INVALID_ENUM),
             Some(Place::Light(light)) => {
                 set_bit(&mut self.state.lighting.enabled, light, on);
-                self.dirty(Dirty::FIXED);
+                self.dirty(Dirty::WORDS);
             }
             Some(Place::ClipPlane(plane)) => {
                 set_bit(&mut self.state.transform.clip_enabled, plane, on);
-                self.dirty(Dirty::FIXED);
+                self.dirty(Dirty::WORDS);
             }
             Some(Place::Texture(target)) => {
                 let before = self.state.texture.units[active].targets;
                 set_bit(&mut self.state.texture.units[active].targets, target, on);
                 if self.state.texture.units[active].targets != before {
-                    self.dirty(Dirty::BINDINGS | Dirty::FIXED | Dirty::ENVIRONMENT);
+                    self.dirty(Dirty::BINDINGS);
                 }
             }
             Some(Place::Generate(coordinate)) => {
                 set_bit(&mut self.state.texture.units[active].gen_enabled, coordinate, on);
-                self.dirty(Dirty::FIXED);
+                self.dirty(Dirty::WORDS);
             }
             Some(Place::Flag(cap)) => self.switch_flag(cap, on),
         }
@@ -81,8 +81,17 @@ impl Context {
         }
         match cap {
             Cap::ScissorTest => self.dirty(Dirty::VIEWPORT),
-            Cap::RescaleNormal | Cap::Normalize => self.dirty(Dirty::FIXED | Dirty::TRANSFORM),
-            _ => self.dirty(Dirty::FIXED),
+            Cap::RescaleNormal | Cap::Normalize => self.dirty(Dirty::WORDS | Dirty::TRANSFORM),
+            Cap::Blend
+            | Cap::ColorLogicOp
+            | Cap::CullFace
+            | Cap::DepthTest
+            | Cap::LineStipple
+            | Cap::PolygonOffsetFill
+            | Cap::PolygonOffsetLine
+            | Cap::PolygonOffsetPoint
+            | Cap::StencilTest => self.dirty(Dirty::RASTER),
+            _ => self.dirty(Dirty::WORDS),
         }
     }
 

@@ -43,19 +43,19 @@ impl Context {
     pub(crate) fn exec_alpha_func(&mut self, func: u32, reference: f32) {
         require!(self, is_compare(func), GL_INVALID_ENUM);
         (self.state.color.alpha_func, self.state.color.alpha_reference) = (func, unit(reference));
-        self.dirty(Dirty::FIXED | Dirty::ENVIRONMENT);
+        self.dirty(Dirty::WORDS | Dirty::ENVIRONMENT);
     }
 
     pub(crate) fn exec_blend_color(&mut self, red: f32, green: f32, blue: f32, alpha: f32) {
         self.state.color.blend_color = [red, green, blue, alpha].map(unit);
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_blend_equation(&mut self, mode: u32) {
         let modes = [GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN, GL_MAX];
         require!(self, modes.contains(&mode), GL_INVALID_ENUM);
         self.state.color.equation = [mode; 2];
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_blend_func(&mut self, source: u32, destination: u32) {
@@ -69,13 +69,13 @@ impl Context {
         let blend = [[sc, dc], [sa, da]];
         if self.state.color.blend != blend {
             self.state.color.blend = blend;
-            self.dirty(Dirty::FIXED);
+            self.dirty(Dirty::RASTER);
         }
     }
 
     pub(crate) fn exec_color_mask(&mut self, red: bool, green: bool, blue: bool, alpha: bool) {
         self.state.color.mask = [red, green, blue, alpha];
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_index_mask(&mut self, mask: u32) {
@@ -86,14 +86,14 @@ impl Context {
         require!(self, matches!(face, GL_FRONT | GL_BACK | GL_FRONT_AND_BACK), GL_INVALID_ENUM);
         if self.state.polygon.cull_face != face {
             self.state.polygon.cull_face = face;
-            self.dirty(Dirty::FIXED);
+            self.dirty(Dirty::RASTER);
         }
     }
 
     pub(crate) fn exec_front_face(&mut self, mode: u32) {
         require!(self, matches!(mode, GL_CW | GL_CCW), GL_INVALID_ENUM);
         self.state.polygon.front_face = mode;
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_polygon_mode(&mut self, face: u32, mode: u32) {
@@ -101,26 +101,26 @@ impl Context {
         require!(self, matches!(mode, GL_POINT | GL_LINE | GL_FILL), GL_INVALID_ENUM);
         let Some(faces) = faces else { return self.record_error(GL_INVALID_ENUM) };
         faces.iter().for_each(|&face| self.state.polygon.mode[face] = mode);
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_polygon_offset(&mut self, factor: f32, units: f32) {
         self.state.polygon.offset = (factor, units);
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_depth_func(&mut self, func: u32) {
         require!(self, is_compare(func), GL_INVALID_ENUM);
         if self.state.depth.func != func {
             self.state.depth.func = func;
-            self.dirty(Dirty::FIXED);
+            self.dirty(Dirty::RASTER);
         }
     }
 
     pub(crate) fn exec_depth_mask(&mut self, write: bool) {
         if self.state.depth.mask != write {
             self.state.depth.mask = write;
-            self.dirty(Dirty::FIXED);
+            self.dirty(Dirty::RASTER);
         }
     }
 
@@ -146,7 +146,7 @@ impl Context {
         require!(self, is_compare(func), GL_INVALID_ENUM);
         let stencil = &mut self.state.stencil;
         (stencil.func, stencil.reference, stencil.value_mask) = (func, reference, mask);
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_stencil_op(&mut self, fail: u32, depth_fail: u32, pass: u32) {
@@ -154,37 +154,37 @@ impl Context {
         let known = [GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP];
         require!(self, ops.iter().all(|op| known.contains(op)), GL_INVALID_ENUM);
         self.state.stencil.ops = ops;
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_stencil_mask(&mut self, mask: u32) {
         self.state.stencil.write_mask = mask;
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_logic_op(&mut self, op: u32) {
         require!(self, (GL_CLEAR..=GL_SET).contains(&op), GL_INVALID_ENUM);
         self.state.color.logic_op = op;
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_line_width(&mut self, width: f32) {
         require!(self, width > 0.0, GL_INVALID_VALUE);
         self.state.line.width = width;
-        self.dirty(Dirty::FIXED | Dirty::ENVIRONMENT);
+        self.dirty(Dirty::RASTER | Dirty::ENVIRONMENT);
     }
 
     pub(crate) fn exec_line_stipple(&mut self, factor: i32, pattern: u16) {
         let line = &mut self.state.line;
         (line.stipple_factor, line.stipple_pattern) = (factor.clamp(1, 256) as u16, pattern);
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::RASTER);
     }
 
     pub(crate) fn exec_draw_buffer(&mut self, buffer: u32) {
         match buffer {
             GL_NONE | GL_FRONT_LEFT | GL_BACK_LEFT | GL_FRONT | GL_BACK | GL_LEFT | GL_FRONT_AND_BACK => {
                 self.state.color.draw_buffer = buffer;
-                self.dirty(Dirty::FIXED);
+                self.dirty(Dirty::RASTER);
             }
             // No stereo and no auxiliary buffers.
             GL_FRONT_RIGHT | GL_BACK_RIGHT | GL_RIGHT | GL_AUX0..=GL_AUX3 => {

@@ -193,14 +193,15 @@ impl Context {
     fn get_current(&self, pname: u32) -> Option<Value> {
         let (current, active) = (&self.state.current, self.state.texture.active);
         let raster = &current.raster;
+        let attribute = |slot: usize| current.attributes[slot].to_array();
         match pname {
-            GL_CURRENT_COLOR => fractions(&current.attributes[Slot::Color as usize]),
-            GL_CURRENT_SECONDARY_COLOR => fractions(&current.attributes[Slot::Secondary as usize]),
-            GL_CURRENT_NORMAL => fractions(&current.attributes[Slot::Normal as usize][..3]),
+            GL_CURRENT_COLOR => fractions(&attribute(Slot::Color as usize)),
+            GL_CURRENT_SECONDARY_COLOR => fractions(&attribute(Slot::Secondary as usize)),
+            GL_CURRENT_NORMAL => fractions(&attribute(Slot::Normal as usize)[..3]),
             GL_CURRENT_TEXTURE_COORDS => {
-                floats(&current.attributes[(Slot::Texture0 as usize + active).min(SLOTS - 1)])
+                floats(&attribute((Slot::Texture0 as usize + active).min(SLOTS - 1)))
             }
-            GL_CURRENT_FOG_COORDINATE => floats(&current.attributes[Slot::Fog as usize][..1]),
+            GL_CURRENT_FOG_COORDINATE => floats(&attribute(Slot::Fog as usize)[..1]),
             GL_CURRENT_INDEX => floats(&[current.index]),
             GL_EDGE_FLAG => flag(current.edge_flag),
             GL_CURRENT_RASTER_POSITION => floats(&raster.window),

@@ -7,36 +7,52 @@ use crate::frame::{Format, SLOTS, Slot, VertexLayout};
 
 /// Words of the largest value.
 const VALUE_WORDS: usize = 4;
+/// Words of the largest vertex, and what its last value may have too many.
+const VERTEX_ROOM: usize = VALUE_WORDS * (SLOTS + 1);
+
+/// Words by attribute slot, in a power of two of bytes: compared at once.
+type Widths = [u8; SLOTS.next_power_of_two()];
+
+const NONE: Widths = [0; SLOTS.next_power_of_two()];
+const WIDEST: Widths = {
+    let mut widths = [VALUE_WORDS as u8; SLOTS.next_power_of_two()];
+    // A vertex outside of Begin and End is none.
+    widths[Slot::Position as usize] = 0;
+    widths
+};
 
 /// Vertices of one primitive while it is being specified.
 ///
-/// A value is always stored with four words; in a vertex the next one covers what it has too many. So nothing here
-/// depends on how wide an attribute is but the rare change of the layout.
+/// What comes often goes the quick way: an attribute only becomes the current one, and a vertex takes what is current.
+/// A value is always stored with four words; in a vertex the next one covers what it has too many. So nothing there
+/// depends on how wide an attribute is, but the test whether the layout of the vertices so far suits it, and the same
+/// test turns away what the quick way does not know.
 #[derive(Debug)]
 pub struct Immediate {
     /// The mode of glBegin, between Begin and End.
     pub mode: Option<u32>,
-    /// How the vertices are stored.
+    /// How the vertices are stored, once there is one.
     pub layout: VertexLayout,
-    /// Number of vertices so far.
-    pub count: usize,
     /// Edge flag of each vertex, if they matter (polygon modes other than fill).
     pub edges: Option<Vec<bool>>,
     /// Attributes that first came after some vertices: slot and number of vertices without it.
     pub late: Vec<(usize, usize)>,
+    /// Widths of values that may go the quick way.
+    quick: Widths,
+    /// Every value goes the long way, because a list takes note of it.
+    is_watched: bool,
     /// The vertices so far, and room for more.
     buffer: Vec<u32>,
     /// Words of the buffer that are in use.
     used: usize,
     stride: usize,
-    /// The latest value of each attribute that the layout has. They are written and read as a whole: a load of what
-    /// was stored in parts would wait for the stores.
-    values: [Vec4; SLOTS],
-    /// Words that the layout has of each attribute. Outside Begin and End all, so that no value is too wide.
-    held: [u8; SLOTS],
     /// Slot and offset of each attribute of the layout but the position, by offset.
     parts: [(u8, u8); SLOTS],
     part_count: usize,
+    /// Words that the vertices to come have of each attribute.
+    held: Widths,
+    /// What `held` was when the layout was made of it.
+    laid_out: Widths,
 }
 
 impl Default for Immediate {
@@ -44,16 +60,17 @@ impl Default for Immediate {
         Immediate {
             mode: None,
             layout: VertexLayout::default(),
-            count: 0,
             edges: None,
             late: Vec::new(),
+            quick: WIDEST,
+            is_watched: false,
             buffer: Vec::new(),
             used: 0,
             stride: 0,
-            values: [Vec4::ZERO; SLOTS],
-            held: [VALUE_WORDS as u8; SLOTS],
             parts: [(0, 0); SLOTS],
             part_count: 0,
+            held: NONE,
+            laid_out: NONE,
         }
     }
 }
@@ -68,19 +85,27 @@ impl Immediate {
 
     /// glEnd: the mode that there was, if any. The vertices stay until the next Begin.
     pub fn end(&mut self) -> Option<u32> {
-        self.held = [VALUE_WORDS as u8; SLOTS];
+        self.quick = if self.is_watched { NONE } else { WIDEST };
         self.mode.take()
+    }
+
+    /// Whether a list takes note of every value from now on; outside of Begin and End.
+    pub fn watch(&mut self, is_watched: bool) {
+        self.is_watched = is_watched;
+        self.quick = if is_watched { NONE } else { WIDEST };
     }
 
     /// Forgets the vertices; the primitive goes on.
     pub fn restart(&mut self) {
         self.late.clear();
-        self.count = 0;
         self.used = 0;
-        self.layout = VertexLayout::default();
-        self.stride = 0;
-        self.held = [0; SLOTS];
-        self.part_count = 0;
+        self.held = NONE;
+        self.quick = NONE;
+    }
+
+    /// Number of vertices so far.
+    pub fn count(&self) -> usize {
+        if self.used == 0 { 0 } else { self.used / self.stride }
     }
 
     /// The vertices so far.
@@ -98,101 +123,117 @@ impl Immediate {
         self.buffer = buffer;
     }
 
-    /// An attribute of the vertices to come. `before` is what holds for the vertices so far if the
+    /// Whether a value may become current without further ado.
+    #[inline(always)]
+    pub fn is_quick(&self, slot: usize, value: [f32; 4]) -> bool {
+        tightest(slot, value).words() as u8 <= self.quick[slot]
+    }
+
+    /// A vertex the quick way, with the attributes that are current. `false`: it must go the long way.
+    #[inline(always)]
+    pub fn push_quickly(&mut self, position: [f32; 4], current: &[Vec4; SLOTS]) -> bool {
+        self.is_quick(Slot::Position as usize, position) && self.store(position, current)
+    }
+
+    /// A vertex of whatever width. `current` has the values of the attributes.
+    pub fn push(&mut self, position: [f32; 4], edge: bool, current: &[Vec4; SLOTS]) {
+        self.admit(Slot::Position as usize, position, [0.0, 0.0, 0.0, 1.0]);
+        if self.used == 0 {
+            self.lay_out();
+        }
+        if !self.store(position, current) {
+            self.buffer.resize((2 * self.used).max(8 * VERTEX_ROOM), 0);
+            self.store(position, current);
+        }
+        match &mut self.edges {
+            Some(edges) => edges.push(edge),
+            None if self.is_watched => {}
+            None => self.quick = self.held,
+        }
+    }
+
+    /// Vertices to come have an attribute as wide as `value`. `before` is what holds for the vertices so far if the
     /// attribute was not among theirs.
-    #[inline(always)]
-    pub fn attribute(&mut self, slot: usize, [x, y, z, w]: [f32; 4], before: &[f32; 4]) {
-        if tightest(slot, [x, y, z, w]).words() as u8 > self.held[slot] {
-            self.widen_for(slot, x, y, z, w, before);
+    pub fn admit(&mut self, slot: usize, value: [f32; 4], before: [f32; 4]) {
+        let words = tightest(slot, value).words() as u8;
+        if self.mode.is_none() || words <= self.held[slot] {
+            return;
         }
-        self.values[slot] = Vec4::new(x, y, z, w);
-    }
-
-    /// A vertex, with the attributes as they are now.
-    #[inline(always)]
-    pub fn vertex(&mut self, [x, y, z, w]: [f32; 4], edge: bool) {
-        let slot = Slot::Position as usize;
-        let format = tightest(slot, [x, y, z, w]);
-        if format.words() as u8 > self.held[slot] {
-            self.widen(slot, format, [0.0, 0.0, 0.0, 1.0]);
+        if self.held[slot] == 0 && self.used > 0 {
+            self.late.push((slot, self.count()));
         }
-        if self.used + self.stride + VALUE_WORDS > self.buffer.len() {
-            self.grow();
-        }
-        let vertex = &mut self.buffer[self.used..self.used + self.stride + VALUE_WORDS];
-        store(vertex, 0, Vec4::new(x, y, z, w));
-        for &(slot, offset) in &self.parts[..self.part_count] {
-            store(vertex, offset as usize, self.values[slot as usize]);
-        }
-        self.used += self.stride;
-        self.count += 1;
-        if self.edges.is_some() {
-            self.push_edge(edge);
-        }
-    }
-
-    #[cold]
-    fn push_edge(&mut self, edge: bool) {
-        self.edges.get_or_insert_default().push(edge);
-    }
-
-    #[cold]
-    fn grow(&mut self) {
-        let least = self.used + self.stride + VALUE_WORDS;
-        self.buffer.resize((2 * least).max(1024), 0);
-    }
-
-    #[cold]
-    fn widen_for(&mut self, slot: usize, x: f32, y: f32, z: f32, w: f32, before: &[f32; 4]) {
-        if self.held[slot] == 0 && self.count > 0 {
-            self.late.push((slot, self.count));
-        }
-        self.widen(slot, tightest(slot, [x, y, z, w]), *before);
-    }
-
-    /// Stores `slot` as `format` from now on; vertices so far get `before` if they lack it.
-    #[cold]
-    fn widen(&mut self, slot: usize, format: Format, before: [f32; 4]) {
-        let (old, new) = (self.layout, self.layout.with(slot, format));
-        if self.count > 0 {
-            self.buffer = relayout(self.words(), old, new, slot, before);
+        self.held[slot] = words;
+        if self.used > 0 {
+            let old = self.layout;
+            self.lay_out();
+            self.buffer.truncate(self.used);
+            self.buffer = relayout(&self.buffer, old, self.layout, slot, before);
             self.used = self.buffer.len();
         }
-        self.layout = new;
-        self.stride = new.stride();
-        self.part_count = 0;
+        if !self.is_watched && slot != Slot::Position as usize {
+            self.quick[slot] = words;
+        }
+    }
+
+    /// Makes the layout for what is held.
+    fn lay_out(&mut self) {
+        if self.laid_out == self.held {
+            return;
+        }
+        self.laid_out = self.held;
+        self.layout = VertexLayout::default();
         for slot in 0..SLOTS {
-            self.held[slot] = new.format(slot).words() as u8;
-            if self.held[slot] > 0 && slot != Slot::Position as usize {
-                self.parts[self.part_count] = (slot as u8, new.offset(slot) as u8);
-                self.part_count += 1;
+            self.layout = self.layout.with(slot, Format::of_words(self.held[slot].into()));
+        }
+        self.stride = self.layout.stride();
+        self.part_count = 0;
+        for slot in (0..SLOTS).filter(|&slot| slot != Slot::Position as usize && self.held[slot] > 0) {
+            self.parts[self.part_count] = (slot as u8, self.layout.offset(slot) as u8);
+            self.part_count += 1;
+        }
+    }
+
+    /// Writes a vertex, if there is room.
+    #[inline(always)]
+    fn store(&mut self, [x, y, z, w]: [f32; 4], current: &[Vec4; SLOTS]) -> bool {
+        let free = self.buffer.get_mut(self.used..).and_then(|free| free.first_chunk_mut::<VERTEX_ROOM>());
+        let Some(vertex) = free else { return false };
+        store(vertex, 0, Vec4::new(x, y, z, w));
+        for &(slot, offset) in self.parts.iter().take(self.part_count) {
+            if let Some(value) = current.get(slot as usize) {
+                store(vertex, offset as usize, *value);
             }
         }
+        self.used += self.stride;
+        true
     }
 }
 
-/// Writes all of a value to a vertex, if there is room.
+/// Writes all of a value to a vertex.
 #[inline(always)]
-fn store(vertex: &mut [u32], offset: usize, value: Vec4) {
+fn store(vertex: &mut [u32; VERTEX_ROOM], offset: usize, value: Vec4) {
     if let Some(words) = vertex.get_mut(offset..offset + VALUE_WORDS) {
         words.copy_from_slice(&bytemuck::cast::<Vec4, [u32; VALUE_WORDS]>(value));
     }
 }
 
 /// The least format that holds the value of an attribute.
-#[inline]
-fn tightest(slot: usize, v: [f32; 4]) -> Format {
+#[inline(always)]
+fn tightest(slot: usize, [_, _, z, w]: [f32; 4]) -> Format {
     const NORMAL: usize = Slot::Normal as usize;
     const COLOR: usize = Slot::Color as usize;
     const SECONDARY: usize = Slot::Secondary as usize;
     const FOG: usize = Slot::Fog as usize;
+    // By their bits: quicker, and right for what is no number.
+    let is_one = w.to_bits() == 1.0_f32.to_bits();
+    let is_flat = z.to_bits() << 1 == 0;
     match slot {
         NORMAL | SECONDARY => Format::F3,
         FOG => Format::F1,
-        COLOR if v[3] == 1.0 => Format::F3,
+        COLOR if is_one => Format::F3,
         COLOR => Format::F4,
-        _ if v[3] != 1.0 => Format::F4,
-        _ if v[2] != 0.0 => Format::F3,
+        _ if !is_one => Format::F4,
+        _ if !is_flat => Format::F3,
         _ => Format::F2,
     }
 }
@@ -230,29 +271,93 @@ fn convert(
 mod tests {
     use super::*;
 
-    fn floats(immediate: &Immediate) -> Vec<f32> {
-        immediate.words().iter().map(|&w| f32::from_bits(w)).collect()
+    /// Calls as a context makes them.
+    struct Caller {
+        immediate: Immediate,
+        current: [Vec4; SLOTS],
+    }
+
+    impl Caller {
+        fn new(is_watched: bool) -> Caller {
+            let mut immediate = Immediate::default();
+            immediate.watch(is_watched);
+            immediate.begin(4, false);
+            Caller { immediate, current: [Vec4::new(0.5, 0.6, 0.7, 0.8); SLOTS] }
+        }
+
+        fn attribute(&mut self, slot: Slot, value: [f32; 4]) {
+            let slot = slot as usize;
+            if !self.immediate.is_quick(slot, value) {
+                self.immediate.admit(slot, value, self.current[slot].to_array());
+            }
+            self.current[slot] = Vec4::from_array(value);
+        }
+
+        fn vertex(&mut self, position: [f32; 4]) {
+            if !self.immediate.push_quickly(position, &self.current) {
+                self.immediate.push(position, true, &self.current);
+            }
+        }
+
+        fn floats(&self) -> Vec<f32> {
+            self.immediate.words().iter().map(|&w| f32::from_bits(w)).collect()
+        }
     }
 
     #[test]
     fn a_late_attribute_fills_earlier_vertices_with_the_value_before() {
-        let mut immediate = Immediate::default();
-        immediate.begin(4, false);
-        immediate.vertex([1.0, 2.0, 0.0, 1.0], true);
-        immediate.attribute(Slot::Color as usize, [0.1, 0.2, 0.3, 1.0], &[0.5, 0.6, 0.7, 0.8]);
-        immediate.vertex([3.0, 4.0, 5.0, 1.0], true);
-        assert_eq!(floats(&immediate), [1.0, 2.0, 0.0, 0.5, 0.6, 0.7, 3.0, 4.0, 5.0, 0.1, 0.2, 0.3]);
-        assert_eq!(immediate.late, [(Slot::Color as usize, 1)]);
+        for is_watched in [false, true] {
+            let mut caller = Caller::new(is_watched);
+            caller.vertex([1.0, 2.0, 0.0, 1.0]);
+            caller.attribute(Slot::Color, [0.1, 0.2, 0.3, 1.0]);
+            caller.vertex([3.0, 4.0, 5.0, 1.0]);
+            let expected = [1.0, 2.0, 0.0, 0.5, 0.6, 0.7, 3.0, 4.0, 5.0, 0.1, 0.2, 0.3];
+            assert_eq!(caller.floats(), expected);
+            assert_eq!(caller.immediate.late, [(Slot::Color as usize, 1)]);
+        }
     }
 
     #[test]
     fn a_wider_value_keeps_what_was_stored() {
-        let mut immediate = Immediate::default();
-        immediate.begin(4, false);
-        immediate.attribute(Slot::Texture0 as usize, [0.25, 0.75, 0.0, 1.0], &[0.0; 4]);
-        immediate.vertex([1.0, 2.0, 0.0, 1.0], true);
-        immediate.attribute(Slot::Texture0 as usize, [0.5, 0.5, 0.0, 2.0], &[0.0; 4]);
-        immediate.vertex([1.0, 2.0, 0.0, 1.0], true);
-        assert_eq!(floats(&immediate), [1.0, 2.0, 0.25, 0.75, 0.0, 1.0, 1.0, 2.0, 0.5, 0.5, 0.0, 2.0]);
+        let mut caller = Caller::new(false);
+        caller.attribute(Slot::Texture0, [0.25, 0.75, 0.0, 1.0]);
+        caller.vertex([1.0, 2.0, 0.0, 1.0]);
+        caller.attribute(Slot::Texture0, [0.5, 0.5, 0.0, 2.0]);
+        caller.vertex([1.0, 2.0, 0.0, 1.0]);
+        assert_eq!(caller.floats(), [1.0, 2.0, 0.25, 0.75, 0.0, 1.0, 1.0, 2.0, 0.5, 0.5, 0.0, 2.0]);
+    }
+
+    #[test]
+    fn a_primitive_has_the_attributes_of_its_own() {
+        let mut caller = Caller::new(false);
+        caller.attribute(Slot::Normal, [0.0, 0.0, 1.0, 0.0]);
+        caller.vertex([1.0, 2.0, 3.0, 1.0]);
+        assert_eq!(caller.immediate.end(), Some(4));
+        caller.attribute(Slot::Color, [0.1, 0.2, 0.3, 0.4]);
+        caller.immediate.begin(4, false);
+        assert_eq!(caller.immediate.count(), 0);
+        caller.vertex([4.0, 5.0, 0.0, 1.0]);
+        assert_eq!(caller.floats(), [4.0, 5.0]);
+        assert_eq!(caller.immediate.count(), 1);
+    }
+
+    #[test]
+    fn many_vertices_of_many_attributes_find_room() {
+        let mut caller = Caller::new(false);
+        for i in 0..1000 {
+            for unit in 0..4 {
+                let slot = Slot::Texture0 as usize + unit;
+                let value = [i as f32, unit as f32, 1.0, 2.0];
+                if !caller.immediate.is_quick(slot, value) {
+                    caller.immediate.admit(slot, value, [0.0; 4]);
+                }
+                caller.current[slot] = Vec4::from_array(value);
+            }
+            caller.vertex([0.0, 1.0, 2.0, i as f32]);
+        }
+        assert_eq!((caller.immediate.count(), caller.immediate.layout.stride()), (1000, 20));
+        let words = caller.floats();
+        let vertex = |i: usize| &words[20 * i..20 * i + 8];
+        assert!((0..1000).all(|i| vertex(i)[2..5] == [2.0, if i == 1 { 1.0 } else { i as f32 }, i as f32]));
     }
 }

@@ -32,7 +32,7 @@ impl Context {
         let result = self.set_light(index, pname, values);
         if self.check(result) {
             // Where a light is and whether it is a spot is part of what is computed.
-            self.dirty(Dirty::LIGHTS | Dirty::FIXED);
+            self.dirty(Dirty::LIGHTS | Dirty::WORDS);
         }
     }
 
@@ -77,7 +77,7 @@ impl Context {
             },
             _ => return self.record_error(GL_INVALID_ENUM),
         }
-        self.dirty(Dirty::LIGHTS | Dirty::FIXED);
+        self.dirty(Dirty::LIGHTS | Dirty::WORDS);
     }
 
     pub(crate) fn exec_material(&mut self, face: u32, pname: u32, values: Values) {
@@ -110,7 +110,7 @@ impl Context {
             GL_QUADS => 4,
             _ => return,
         };
-        if self.list.is_none() && self.immediate.count > 0 && self.immediate.count.is_multiple_of(whole) {
+        if self.list.is_none() && self.immediate.count() > 0 && self.immediate.count().is_multiple_of(whole) {
             self.draw_immediate(mode);
             self.immediate.restart();
         }
@@ -124,7 +124,7 @@ impl Context {
         self.sync_color_material();
         self.state.lighting.color_material_face = face;
         self.state.lighting.color_material_mode = mode;
-        self.dirty(Dirty::FIXED);
+        self.dirty(Dirty::WORDS);
     }
 
     /// Gives the material the current colour if it follows it. While it follows, shaders use the colour
@@ -133,7 +133,7 @@ impl Context {
         if !self.state.caps.has(Cap::ColorMaterial) {
             return;
         }
-        let color = self.state.current.attributes[Slot::Color as usize];
+        let color = self.state.current.attributes[Slot::Color as usize].to_array();
         let lighting = &mut self.state.lighting;
         for &face in face_indices(lighting.color_material_face).unwrap_or_default() {
             let face = &mut lighting.material.faces[face];
@@ -154,7 +154,7 @@ impl Context {
         }
         if self.state.lighting.shade_model != mode {
             self.state.lighting.shade_model = mode;
-            self.dirty(Dirty::FIXED);
+            self.dirty(Dirty::WORDS);
         }
     }
 
@@ -178,7 +178,7 @@ impl Context {
             // NV_fog_distance is not there: the distance is always the eye's z.
             _ => return self.record_error(GL_INVALID_ENUM),
         }
-        self.dirty(Dirty::ENVIRONMENT | Dirty::FIXED);
+        self.dirty(Dirty::ENVIRONMENT | Dirty::WORDS);
     }
 
     pub(crate) fn exec_point_size(&mut self, size: f32) {
@@ -201,7 +201,7 @@ impl Context {
             GL_POINT_FADE_THRESHOLD_SIZE => point.fade_threshold = value,
             _ => return self.record_error(GL_INVALID_ENUM),
         }
-        self.dirty(Dirty::ENVIRONMENT | Dirty::FIXED);
+        self.dirty(Dirty::ENVIRONMENT | Dirty::WORDS);
     }
 }
 

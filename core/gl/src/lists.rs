@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use afterglow_api::constants::*;
+use glam::Vec4;
 
 use crate::assemble::{self, PolygonMode};
 use crate::commands::Command;
@@ -61,8 +62,10 @@ pub struct ListBuilder {
     pub executes: bool,
     items: Vec<ListItem>,
     run: Run,
-    /// Attributes given between Begin and End: their last values, current once the primitive is drawn.
-    inside: [Option<[f32; 4]>; SLOTS],
+    /// Attributes between Begin and End: their last values, current once the primitive is drawn.
+    inside: [Vec4; SLOTS],
+    /// Which of them were given.
+    given: [bool; SLOTS],
 }
 
 /// Primitives of one kind and layout in a row, which become one range.
@@ -104,10 +107,15 @@ impl ListBuilder {
     /// Records an attribute; between Begin and End it is part of the vertices.
     pub fn attribute(&mut self, slot: usize, value: [f32; 4], inside: bool) {
         if inside {
-            self.inside[slot] = Some(value);
+            (self.inside[slot], self.given[slot]) = (Vec4::from_array(value), true);
         } else {
             self.item(ListItem::Attribute(slot, value));
         }
+    }
+
+    /// The attributes that were given between Begin and End; others have no meaning.
+    pub fn inside(&self) -> &[Vec4; SLOTS] {
+        &self.inside
     }
 
     /// Records glMaterial.
@@ -143,14 +151,15 @@ impl ListBuilder {
         let kind = Kind::of(mode, PolygonMode::Fill);
         if late.is_empty() && !edges.contains(&false) {
             let mut indices = Vec::new();
-            assemble::assemble(mode, immediate.count, |i| i as u32, &mut indices);
+            assemble::assemble(mode, immediate.count(), |i| i as u32, &mut indices);
             self.geometry(layout, kind, immediate.words(), &indices);
         } else {
             let words = immediate.words().to_vec();
             self.item(ListItem::Primitive(Box::new(ListPrimitive { mode, layout, words, edges, late })));
         }
         for slot in 0..SLOTS {
-            if let Some(value) = self.inside[slot].take() {
+            if std::mem::take(&mut self.given[slot]) {
+                let value = self.inside[slot].to_array();
                 self.run.trailing.retain(|(s, _)| *s != slot);
                 self.run.trailing.push((slot, value));
             }
@@ -175,8 +184,10 @@ impl Context {
             executes: mode == GL_COMPILE_AND_EXECUTE,
             items: Vec::new(),
             run: Run::default(),
-            inside: [None; SLOTS],
+            inside: [Vec4::ZERO; SLOTS],
+            given: [false; SLOTS],
         }));
+        self.immediate.watch(true);
     }
 
     /// glEndList.
@@ -187,6 +198,7 @@ impl Context {
         let Some(mut builder) = self.list.take() else {
             return self.record_error(GL_INVALID_OPERATION);
         };
+        self.immediate.watch(false);
         builder.end_run();
         let list = Arc::new(List { items: builder.items });
         self.shared.lock().lists.insert(builder.name, list);
@@ -313,7 +325,7 @@ impl Context {
         let stride = primitive.layout.stride();
         for &(slot, count) in &primitive.late {
             let (offset, width) = (primitive.layout.offset(slot), primitive.layout.format(slot).words());
-            let value = self.state.current.attributes[slot].map(f32::to_bits);
+            let value = self.state.current.attributes[slot].to_array().map(f32::to_bits);
             for vertex in words.chunks_exact_mut(stride).take(count) {
                 vertex[offset..offset + width].copy_from_slice(&value[..width]);
             }

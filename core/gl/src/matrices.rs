@@ -75,7 +75,7 @@ impl Context {
             GL_PROJECTION => (&mut self.matrices.projection, Dirty::TRANSFORM),
             GL_TEXTURE => (
                 &mut self.matrices.texture[self.state.texture.active],
-                Dirty::TEXTURE_MATRICES | Dirty::FIXED,
+                Dirty::TEXTURE_MATRICES | Dirty::WORDS,
             ),
             GL_COLOR => (&mut self.matrices.color, Dirty::empty()),
             _ => (&mut self.matrices.modelview, Dirty::TRANSFORM),

@@ -9,8 +9,8 @@ use glam::{Vec3, Vec4};
 use crate::backend::{Reply, Request};
 use crate::context::Context;
 use crate::frame::{
-    AccumulateOp, BaseFormat, Operation, PixelBuffer, PixelContent, PixelCopy, PixelRectangle, Rect, Slot,
-    TEXTURE_UNITS,
+    AccumulateOp, BaseFormat, Operation, PixelBuffer, PixelContent, PixelCopy, PixelRectangle, Rect, SLOTS,
+    Slot, TEXTURE_UNITS,
 };
 use crate::pixel::{
     Extent, Luminance, Packing, PixelLayout, PixelSource, PixelTarget, image_size, pack_color, pack_depth,
@@ -197,7 +197,7 @@ impl Context {
         }
         let ids = self.validate_pixels();
         self.state.current.attributes = attributes;
-        self.emitter.changed = u16::MAX;
+        self.emitter.changed = [true; SLOTS];
         ids
     }
 
@@ -322,7 +322,7 @@ impl Context {
     }
 
     fn set_raster(&mut self, window: [f32; 4], valid: bool, distance: f32) {
-        let attributes = self.state.current.attributes;
+        let attributes = self.state.current.attributes.map(|value| value.to_array());
         let raster = &mut self.state.current.raster;
         (raster.valid, raster.distance) = (valid, distance);
         if valid {
@@ -341,7 +341,7 @@ impl Context {
         let face = &lighting.material.faces[0];
         let rgb = |c: [f32; 4]| Vec3::new(c[0], c[1], c[2]);
         let mut color = rgb(face.emission) + rgb(face.ambient) * rgb(lighting.model_ambient);
-        let n = Vec3::from_slice(&self.state.current.attributes[Slot::Normal as usize]);
+        let n = self.state.current.attributes[Slot::Normal as usize].truncate();
         let normal = glam::Mat3::from_cols_array_2d(&self.transform_block().normal) * n;
         for (i, light) in lighting.lights.iter().enumerate() {
             if lighting.enabled & (1 << i) == 0 {

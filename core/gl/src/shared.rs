@@ -5,14 +5,14 @@ use std::sync::Arc;
 use hashbrown::HashMap;
 use parking_lot::Mutex;
 
-use crate::buffers::BufferObject;
+use crate::buffers::Buffer;
 use crate::lists::List;
 use crate::texture::TextureObject;
 
 /// A texture that contexts share.
 pub type SharedTexture = Arc<Mutex<TextureObject>>;
 /// A buffer that contexts share.
-pub type SharedBuffer = Arc<Mutex<BufferObject>>;
+pub type SharedBuffer = Arc<Buffer>;
 
 /// All shared names.
 #[derive(Default)]

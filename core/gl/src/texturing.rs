@@ -35,19 +35,9 @@ impl Textures {
     }
 
     /// The texture of the enabled target that takes precedence.
-    pub fn enabled(&self, state: &TextureUnit, unit: usize) -> Option<SharedTexture> {
+    pub fn enabled(&self, state: &TextureUnit, unit: usize) -> Option<&SharedTexture> {
         let target = (0..TARGETS.len()).rev().find(|t| state.targets & (1 << t) != 0)?;
-        Some(self.bound[unit][target].1.clone())
-    }
-
-    /// Level bias of the texture that a unit samples.
-    pub fn lod_bias(&self, state: &TextureUnit, unit: usize) -> f32 {
-        self.enabled(state, unit).map_or(0.0, |texture| texture.lock().lod_bias())
-    }
-
-    /// Comparison and depth mode words of the texture that a unit samples, if it has depths.
-    pub fn depth_words(&self, state: &TextureUnit, unit: usize) -> Option<(u32, u32)> {
-        self.enabled(state, unit)?.lock().depth_words()
+        Some(&self.bound[unit][target].1)
     }
 
     /// Index of a texture target.
@@ -69,7 +59,7 @@ impl Context {
             return self.record_error(GL_INVALID_ENUM);
         };
         let unit = self.state.texture.active;
-        if self.textures.bound[unit][index].0 == name && name != 0 {
+        if self.textures.bound[unit][index].0 == name {
             return;
         }
         let texture = if name == 0 {
@@ -84,7 +74,7 @@ impl Context {
         }
         self.textures.bound[unit][index] = (name, texture);
         if self.state.texture.units[unit].targets & (1 << index) != 0 {
-            self.dirty(Dirty::BINDINGS | Dirty::ENVIRONMENT);
+            self.dirty(Dirty::BINDINGS);
         }
     }
 
@@ -112,7 +102,7 @@ impl Context {
             if let Some(texture) = texture.and_then(Arc::into_inner) {
                 texture.into_inner().drop_image(&mut self.frame.operations);
             }
-            self.dirty(Dirty::BINDINGS | Dirty::ENVIRONMENT);
+            self.dirty(Dirty::BINDINGS);
         }
     }
 
@@ -155,7 +145,7 @@ impl Context {
         let texture = self.textures.bound[self.state.texture.active][index].1.clone();
         let result = texture.lock().set_parameter(pname, &values);
         if self.check(result) {
-            self.dirty(Dirty::BINDINGS | Dirty::ENVIRONMENT);
+            self.dirty(Dirty::BINDINGS);
         }
     }
 
@@ -182,7 +172,7 @@ impl Context {
         };
         self.check(result);
         if self.state.texture.units[self.state.texture.active].words != before {
-            self.dirty(Dirty::FIXED);
+            self.dirty(Dirty::WORDS);
         }
     }
 
@@ -209,7 +199,7 @@ impl Context {
             }
             _ => return self.record_error(GL_INVALID_ENUM),
         }
-        self.dirty(Dirty::TEXGEN | Dirty::FIXED);
+        self.dirty(Dirty::TEXGEN | Dirty::WORDS);
     }
 }
 

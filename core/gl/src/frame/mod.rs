@@ -49,7 +49,7 @@ pub enum VertexSource {
 }
 
 /// What is the same for all draws with equal shaders and fixed functions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct FixedState {
     /// What is computed.
     pub words: StateWords,

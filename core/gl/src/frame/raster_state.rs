@@ -1,5 +1,7 @@
 //! Rasterization and the operations on fragments after they are coloured.
 
+use std::hash::{Hash, Hasher};
+
 /// A float that is compared and hashed by its bits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct FloatBits(u32);
@@ -119,8 +121,9 @@ pub struct Depth {
 }
 
 /// Which polygons are dropped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Cull {
+    #[default]
     None,
     Front,
     Back,
@@ -141,7 +144,7 @@ pub struct Rect {
 }
 
 /// Rasterization and per-fragment state of a draw.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct RasterState {
     /// Blending, if enabled.
     pub blend: Option<Blend>,
@@ -163,4 +166,23 @@ pub struct RasterState {
     pub line_width: FloatBits,
     /// Line stipple: factor, pattern; if enabled.
     pub line_stipple: Option<(u16, u16)>,
+}
+
+/// Quick, because every change of state between draws asks for it: what seldom differs alone is left out.
+impl Hash for RasterState {
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        let blend = self.blend.map_or(0, |b| {
+            1 | (b.rgb.0 as u64) << 1
+                | (b.rgb.1 as u64) << 5
+                | (b.alpha.0 as u64) << 9
+                | (b.alpha.1 as u64) << 13
+        });
+        let depth = self.depth.map_or(0, |d| 1 | (d.compare as u64) << 1 | u64::from(d.write) << 4);
+        let stencil = self.stencil.map_or(0, |s| {
+            1 | (s.compare as u64) << 1 | (s.pass as u64) << 4 | (u64::from(s.reference) & 255) << 8
+        });
+        let other = u64::from(self.color_mask) | (self.cull as u64) << 4 | u64::from(self.front_ccw) << 6;
+        hasher.write_u64(blend | depth << 17 | stencil << 22 | other << 38);
+        hasher.write_u32(self.line_width.0 ^ self.depth_bias.map_or(0, |(factor, _)| factor.0));
+    }
 }

@@ -212,7 +212,7 @@ pub enum CombineSource {
 
 /// Everything a shader is specialised by.
 #[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct StateWords {
     /// State outside the texture units.
     pub global: GlobalWords,
@@ -227,6 +227,13 @@ unsafe impl bytemuck::Pod for StateWords {}
 
 /// Number of words in [`StateWords`].
 pub const STATE_WORDS: usize = 2 + 3 * TEXTURE_UNITS;
+
+/// All words at once.
+impl std::hash::Hash for StateWords {
+    fn hash<H: std::hash::Hasher>(&self, hasher: &mut H) {
+        hasher.write(bytemuck::bytes_of(self));
+    }
+}
 
 impl StateWords {
     /// Whether lighting shows: an environment such as GL_REPLACE may leave nothing of its result.

@@ -1,6 +1,7 @@
 //! Initial values (OpenGL 1.5, tables 6.5 to 6.37).
 
 use afterglow_api::constants::*;
+use glam::Vec4;
 
 use super::*;
 use crate::frame::{
@@ -69,10 +70,9 @@ impl Default for State {
 
 impl Default for Current {
     fn default() -> Current {
-        let mut attributes = [BLACK; SLOTS];
-        attributes[Slot::Normal as usize] = [0.0, 0.0, 1.0, 0.0];
-        attributes[Slot::Color as usize] = WHITE;
-        attributes[Slot::Fog as usize] = BLACK;
+        let mut attributes = [Vec4::from_array(BLACK); SLOTS];
+        attributes[Slot::Normal as usize] = Vec4::Z;
+        attributes[Slot::Color as usize] = Vec4::from_array(WHITE);
         Current {
             attributes,
             edge_flag: true,

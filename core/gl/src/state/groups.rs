@@ -1,6 +1,7 @@
 //! The groups of state.
 
 use afterglow_api::constants::*;
+use glam::Vec4;
 
 use crate::frame::{CLIP_PLANES, Light, Material, SLOTS, TEXTURE_UNITS, TexGenUnit, UnitWords};
 
@@ -8,7 +9,7 @@ use crate::frame::{CLIP_PLANES, Light, Material, SLOTS, TEXTURE_UNITS, TexGenUni
 #[derive(Debug, Clone)]
 pub struct Current {
     /// By [`Slot`](crate::frame::Slot); the position's entry is unused.
-    pub attributes: [[f32; 4]; SLOTS],
+    pub attributes: [Vec4; SLOTS],
     /// Edge flag.
     pub edge_flag: bool,
     /// Colour index (kept for glGet only).

@@ -6,6 +6,7 @@ mod doctor;
 mod failure;
 mod inspect;
 mod libdir;
+mod manual;
 mod options;
 mod output;
 mod replay;
@@ -14,7 +15,7 @@ mod run;
 use std::io::IsTerminal;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Path-traces old OpenGL programs: replays their traces and explains itself.
 #[derive(Debug, Parser)]
@@ -40,6 +41,8 @@ enum Command {
     Doctor(doctor::Arguments),
     /// Print the folder that holds libGL.so.1, to be put first on LD_LIBRARY_PATH.
     Libdir,
+    /// Write the manual pages.
+    Manual(manual::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -58,6 +61,7 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),
         Command::Libdir => libdir::run(),
+        Command::Manual(arguments) => manual::run(&arguments, Arguments::command()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

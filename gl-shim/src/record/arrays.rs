@@ -6,10 +6,9 @@ use afterglow_api::{CommandId, id};
 use afterglow_gl::{Context, MemoryArray};
 
 use super::number::Number;
-use super::plan::{Role, plan};
+use super::plan::Role;
 use super::recorder::Recorder;
 use super::sizes::natural;
-use super::thread;
 
 /// Records the arrays that a draw is about to read.
 ///
@@ -63,9 +62,13 @@ fn indexed(gl: &mut Context, count: u64, kind: u64, indices: u64) -> usize {
 }
 
 /// Records all enabled arrays in memory, the vertices last.
-unsafe fn arrays(recorder: &mut Recorder, gl: &Context, vertices: usize) {
+unsafe fn arrays(recorder: &mut Recorder, gl: &mut Context, vertices: usize) {
     let mut arrays: Vec<MemoryArray> = gl.memory_arrays().collect();
     arrays.reverse();
+    let bound = gl.get_integer(GL_ARRAY_BUFFER_BINDING).first().copied().unwrap_or(0);
+    if bound != 0 {
+        bind(recorder, 0);
+    }
     let mut unit = gl.client_texture_unit();
     for array in arrays {
         if array.array == GL_TEXTURE_COORD_ARRAY {
@@ -74,9 +77,18 @@ unsafe fn arrays(recorder: &mut Recorder, gl: &Context, vertices: usize) {
         let bytes = array.bytes(vertices);
         let (id, arguments) = pointer_call(&array);
         // SAFETY: the array holds so many vertices.
-        unsafe { fake(recorder, id, &arguments, Some((array.address as u64, bytes))) };
+        unsafe { recorder.fake(id, &arguments, Some((array.address as u64, bytes))) };
     }
     select_unit(recorder, &mut unit, gl.client_texture_unit());
+    if bound != 0 {
+        bind(recorder, bound);
+    }
+}
+
+/// Binds the buffer that pointers of arrays are offsets in; 0 lets them be addresses.
+fn bind(recorder: &mut Recorder, buffer: i32) {
+    // SAFETY: no pointers.
+    unsafe { recorder.fake(id::glBindBuffer, &[GL_ARRAY_BUFFER.into(), buffer as u64], None) };
 }
 
 fn select_unit(recorder: &mut Recorder, unit: &mut usize, wanted: usize) {
@@ -84,7 +96,7 @@ fn select_unit(recorder: &mut Recorder, unit: &mut usize, wanted: usize) {
         *unit = wanted;
         let name = u64::from(GL_TEXTURE0) + wanted as u64;
         // SAFETY: no pointers.
-        unsafe { fake(recorder, id::glClientActiveTexture, &[name], None) };
+        unsafe { recorder.fake(id::glClientActiveTexture, &[name], None) };
     }
 }
 
@@ -101,29 +113,6 @@ fn pointer_call(array: &MemoryArray) -> (CommandId, Vec<u64>) {
         GL_EDGE_FLAG_ARRAY => (id::glEdgeFlagPointer, vec![stride]),
         _ => (id::glTexCoordPointer, vec![size, kind, stride]),
     }
-}
-
-/// Records a call that the program did not make; a blob follows the arguments.
-unsafe fn fake(
-    recorder: &mut Recorder,
-    id: CommandId,
-    arguments: &[u64],
-    memory: Option<(u64, Option<usize>)>,
-) {
-    let plan = plan(id);
-    let number = recorder.begin(thread(), id, plan);
-    recorder.writer.fake();
-    // SAFETY: the contract is the caller's.
-    unsafe {
-        recorder.arguments(plan, &plan.kinds[..arguments.len()], arguments, None);
-        if let Some((address, bytes)) = memory {
-            recorder.writer.argument(arguments.len());
-            recorder.bytes(address, bytes);
-        }
-    }
-    recorder.writer.end();
-    recorder.writer.leave(number);
-    recorder.writer.end();
 }
 
 /// Whether glInterleavedArrays knows the format and the stride.
@@ -153,7 +142,7 @@ pub fn after_interleaved_arrays(recorder: &mut Recorder, gl: &Context) {
             false => id::glDisableClientState,
         };
         // SAFETY: no pointers.
-        unsafe { fake(recorder, id, &[array.into()], None) };
+        unsafe { recorder.fake(id, &[array.into()], None) };
     }
 }
 
@@ -172,7 +161,7 @@ pub unsafe fn element(recorder: &mut Recorder, gl: &Context, arguments: &[u64]) 
         let unit = u64::from(GL_TEXTURE0) + array.unit as u64;
         let arguments = if array.unit > 0 { vec![unit, address] } else { vec![address] };
         // SAFETY: the contract is the same.
-        unsafe { fake(recorder, id, &arguments, None) };
+        unsafe { recorder.fake(id, &arguments, None) };
     }
     !arrays.is_empty()
 }

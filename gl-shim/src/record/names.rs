@@ -1,11 +1,11 @@
 //! Enumerations and bitmasks as apitrace divides them: one large enumeration, and small ones where small numbers mean
-//! something of their own.
+//! something of their own. Ids of those of GLX follow these (`glx::names`).
 
 use std::sync::LazyLock;
 
 use afterglow_api::constants::*;
 use afterglow_api::enumerant_names;
-use afterglow_trace::write::{Bitmask, Enumeration, Structure};
+use afterglow_trace::write::{Bitmask, Enumeration};
 
 type Named = Vec<(&'static str, i64)>;
 
@@ -52,60 +52,6 @@ pub const ERRORS: Enumeration = Enumeration {
     ],
 };
 
-/// Xlib's Bool.
-pub const X_BOOLEANS: Enumeration = Enumeration { id: 4, values: &[("False", 0), ("True", 1)] };
-
-/// Names of GLX: attributes, and values of some.
-pub const GLX: Enumeration = Enumeration {
-    id: 5,
-    values: &[
-        ("GLX_USE_GL", 1),
-        ("GLX_BUFFER_SIZE", 2),
-        ("GLX_LEVEL", 3),
-        ("GLX_RGBA", 4),
-        ("GLX_DOUBLEBUFFER", 5),
-        ("GLX_STEREO", 6),
-        ("GLX_AUX_BUFFERS", 7),
-        ("GLX_RED_SIZE", 8),
-        ("GLX_GREEN_SIZE", 9),
-        ("GLX_BLUE_SIZE", 10),
-        ("GLX_ALPHA_SIZE", 11),
-        ("GLX_DEPTH_SIZE", 12),
-        ("GLX_STENCIL_SIZE", 13),
-        ("GLX_ACCUM_RED_SIZE", 14),
-        ("GLX_ACCUM_GREEN_SIZE", 15),
-        ("GLX_ACCUM_BLUE_SIZE", 16),
-        ("GLX_ACCUM_ALPHA_SIZE", 17),
-        ("GLX_CONFIG_CAVEAT", 0x20),
-        ("GLX_X_VISUAL_TYPE", 0x22),
-        ("GLX_TRANSPARENT_TYPE", 0x23),
-        ("GLX_CONTEXT_MAJOR_VERSION_ARB", 0x2091),
-        ("GLX_CONTEXT_MINOR_VERSION_ARB", 0x2092),
-        ("GLX_CONTEXT_FLAGS_ARB", 0x2094),
-        ("GLX_NONE", 0x8000),
-        ("GLX_TRUE_COLOR", 0x8002),
-        ("GLX_DIRECT_COLOR", 0x8003),
-        ("GLX_VISUAL_ID", 0x800b),
-        ("GLX_SCREEN", 0x800c),
-        ("GLX_DRAWABLE_TYPE", 0x8010),
-        ("GLX_RENDER_TYPE", 0x8011),
-        ("GLX_X_RENDERABLE", 0x8012),
-        ("GLX_FBCONFIG_ID", 0x8013),
-        ("GLX_RGBA_TYPE", 0x8014),
-        ("GLX_COLOR_INDEX_TYPE", 0x8015),
-        ("GLX_PRESERVED_CONTENTS", 0x801b),
-        ("GLX_LARGEST_PBUFFER", 0x801c),
-        ("GLX_WIDTH", 0x801d),
-        ("GLX_HEIGHT", 0x801e),
-        ("GLX_PBUFFER_HEIGHT", 0x8040),
-        ("GLX_PBUFFER_WIDTH", 0x8041),
-        ("GLX_CONTEXT_PROFILE_MASK_ARB", 0x9126),
-        ("GLX_SAMPLE_BUFFERS", 100_000),
-        ("GLX_SAMPLES", 100_001),
-        ("GLX_DONT_CARE", 0xffff_ffff),
-    ],
-};
-
 /// glClear and glPushAttrib.
 pub const ATTRIBUTE_BITS: Bitmask = Bitmask {
     id: 0,
@@ -142,23 +88,6 @@ pub const CLIENT_ATTRIBUTE_BITS: Bitmask = Bitmask {
         ("GL_CLIENT_ALL_ATTRIB_BITS", 0xffff_ffff),
         ("GL_CLIENT_PIXEL_STORE_BIT", 1),
         ("GL_CLIENT_VERTEX_ARRAY_BIT", 2),
-    ],
-};
-
-pub const VISUAL: Structure = Structure {
-    id: 0,
-    name: "XVisualInfo",
-    members: &[
-        "visual",
-        "visualid",
-        "screen",
-        "depth",
-        "c_class",
-        "red_mask",
-        "green_mask",
-        "blue_mask",
-        "colormap_size",
-        "bits_per_rgb",
     ],
 };
 

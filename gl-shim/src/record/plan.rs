@@ -103,10 +103,6 @@ fn name(command: &Command, param: &Param) -> &'static str {
         ("glDrawBuffer", "buf") | ("glReadBuffer", "src") => "mode",
         ("glDepthRange", "n") => "zNear",
         ("glDepthRange", "f") => "zFar",
-        ("glXChooseFBConfig" | "glXCreateWindow", "attrib_list") => "attribList",
-        ("glXChooseFBConfig", "nelements") => "nitems",
-        ("glXCreateNewContext", "render_type") => "renderType",
-        ("glXCreateNewContext", "share_list") => "shareList",
         (_, name) => name,
     }
 }

@@ -12,8 +12,7 @@ use crate::glx::xlib::{Display, VisualInfo};
 use crate::glx::{attributes, choose, displays};
 
 /// glXChooseVisual.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXChooseVisual(
+pub unsafe fn choose_visual(
     display: *mut Display,
     screen: c_int,
     list: *const c_int,
@@ -38,8 +37,7 @@ fn chosen(known: &displays::OpenDisplay, config: &'static Config) -> Option<*mut
 }
 
 /// glXGetConfig. The result is an error code.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetConfig(
+pub unsafe fn get_config(
     display: *mut Display,
     visual: *const VisualInfo,
     attribute: c_int,
@@ -73,8 +71,7 @@ pub unsafe extern "C" fn glXGetConfig(
 }
 
 /// glXGetFBConfigs.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetFBConfigs(
+pub unsafe fn get_fb_configs(
     display: *mut Display,
     screen: c_int,
     count: *mut c_int,
@@ -84,8 +81,7 @@ pub unsafe extern "C" fn glXGetFBConfigs(
 }
 
 /// glXChooseFBConfig.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXChooseFBConfig(
+pub unsafe fn choose_fb_config(
     display: *mut Display,
     screen: c_int,
     list: *const c_int,
@@ -93,18 +89,6 @@ pub unsafe extern "C" fn glXChooseFBConfig(
 ) -> *mut *mut c_void {
     // SAFETY: the program vouches for all pointers.
     unsafe { find(display, screen, count, |table| choose::configs(table, &attributes::read(list, &[]))) }
-}
-
-/// glXChooseFBConfigSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXChooseFBConfigSGIX(
-    display: *mut Display,
-    screen: c_int,
-    list: *const c_int,
-    count: *mut c_int,
-) -> *mut *mut c_void {
-    // SAFETY: the same function.
-    unsafe { glXChooseFBConfig(display, screen, list, count) }
 }
 
 /// # Safety
@@ -125,9 +109,7 @@ unsafe fn find(
 }
 
 /// glXGetFBConfigAttrib. The result is an error code.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetFBConfigAttrib(
-    _: *mut Display,
+pub unsafe fn get_fb_config_attrib(
     config: *const c_void,
     attribute: c_int,
     value: *mut c_int,
@@ -143,21 +125,8 @@ pub unsafe extern "C" fn glXGetFBConfigAttrib(
     }
 }
 
-/// glXGetFBConfigAttribSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetFBConfigAttribSGIX(
-    display: *mut Display,
-    config: *const c_void,
-    attribute: c_int,
-    value: *mut c_int,
-) -> c_int {
-    // SAFETY: the same function.
-    unsafe { glXGetFBConfigAttrib(display, config, attribute, value) }
-}
-
 /// glXGetVisualFromFBConfig.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetVisualFromFBConfig(
+pub unsafe fn get_visual_from_fb_config(
     display: *mut Display,
     config: *const c_void,
 ) -> *mut VisualInfo {
@@ -171,19 +140,8 @@ pub unsafe extern "C" fn glXGetVisualFromFBConfig(
     .unwrap_or(null_mut())
 }
 
-/// glXGetVisualFromFBConfigSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetVisualFromFBConfigSGIX(
-    display: *mut Display,
-    config: *const c_void,
-) -> *mut VisualInfo {
-    // SAFETY: the same function.
-    unsafe { glXGetVisualFromFBConfig(display, config) }
-}
-
 /// glXGetFBConfigFromVisualSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetFBConfigFromVisualSGIX(
+pub unsafe fn get_fb_config_from_visual(
     display: *mut Display,
     visual: *const VisualInfo,
 ) -> *mut c_void {

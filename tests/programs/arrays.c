@@ -2,6 +2,8 @@
 #define GL_GLEXT_PROTOTYPES
 #include "window.h"
 
+enum { LAST = 2 };
+
 struct vertex {
 	GLubyte color[4];
 	GLfloat position[3];
@@ -45,11 +47,15 @@ static void several_draws(void)
 	glMultiDrawElements(GL_TRIANGLES, counts, GL_UNSIGNED_SHORT, lists, 2);
 }
 
+/* apitrace 11.1 does not notice that arrays are unlocked: nothing that comes later is recorded as it is. */
 static void locked_arrays(void)
 {
 	void (*lock)(GLint, GLsizei) = extension("glLockArraysEXT");
 	void (*unlock)(void) = extension("glUnlockArraysEXT");
-	glTranslatef(0, -2.4f, 0);
+	glColorPointer(4, GL_UNSIGNED_BYTE, sizeof fan[0], fan[0].color);
+	glVertexPointer(3, GL_FLOAT, sizeof fan[0], fan[0].position);
+	glEnableClientState(GL_COLOR_ARRAY);
+	glTranslatef(0, 1.2f, 0);
 	lock(0, 6);
 	glDrawElements(GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, shorts);
 	glDrawElements(GL_TRIANGLES, 3, GL_UNSIGNED_SHORT, shorts + 3);
@@ -61,7 +67,7 @@ static void interleaved_arrays(void)
 	static const GLfloat triangle[] = {
 		0, 1, 0, -0.5f, -0.5f, 0, 0, 0, 1, 0.5f, -0.5f, 0, 1, 0, 0, 0, 0.5f, 0,
 	};
-	glTranslatef(-1.2f, 0, 0);
+	glTranslatef(-1.2f, -2.4f, 0);
 	glInterleavedArrays(GL_C3F_V3F, 0, triangle);
 	glDrawArrays(GL_TRIANGLES, 0, 3);
 	glDisableClientState(GL_COLOR_ARRAY);
@@ -117,9 +123,10 @@ int main(void)
 		glRotatef(5.0f * frame, 0, 0, 1);
 		separate_arrays();
 		several_draws();
-		locked_arrays();
 		interleaved_arrays();
 		all_arrays(frame);
+		if (frame == LAST)
+			locked_arrays();
 		glPopClientAttrib();
 		glXSwapBuffers(display, drawable);
 	}

@@ -61,28 +61,53 @@ fn indexed(gl: &mut Context, count: u64, kind: u64, indices: u64) -> usize {
     gl.indexed_vertices(count as i32, kind as u32, crate::memory::pointer(indices as usize as *const _))
 }
 
-/// Records all enabled arrays in memory, the vertices last.
+/// Records all enabled arrays in memory.
 unsafe fn arrays(recorder: &mut Recorder, gl: &mut Context, vertices: usize) {
-    let mut arrays: Vec<MemoryArray> = gl.memory_arrays().collect();
-    arrays.reverse();
     let bound = gl.get_integer(GL_ARRAY_BUFFER_BINDING).first().copied().unwrap_or(0);
     if bound != 0 {
         bind(recorder, 0);
     }
-    let mut unit = gl.client_texture_unit();
-    for array in arrays {
-        if array.array == GL_TEXTURE_COORD_ARRAY {
-            select_unit(recorder, &mut unit, array.unit);
+    let own_unit = gl.client_texture_unit();
+    let mut is_other = false;
+    for array in in_order(gl) {
+        if array.array != GL_TEXTURE_COORD_ARRAY {
+            if std::mem::take(&mut is_other) {
+                select_unit(recorder, own_unit);
+            }
+        } else if is_other || array.unit != own_unit {
+            is_other = true;
+            select_unit(recorder, array.unit);
         }
         let bytes = array.bytes(vertices);
         let (id, arguments) = pointer_call(&array);
         // SAFETY: the array holds so many vertices.
         unsafe { recorder.fake(id, &arguments, Some((array.address as u64, bytes))) };
     }
-    select_unit(recorder, &mut unit, gl.client_texture_unit());
+    if is_other {
+        select_unit(recorder, own_unit);
+    }
     if bound != 0 {
         bind(recorder, bound);
     }
+}
+
+/// Arrays in the order in which apitrace has them. The position comes last, since it makes the vertex.
+const ORDER: [u32; 8] = [
+    GL_SECONDARY_COLOR_ARRAY,
+    GL_FOG_COORDINATE_ARRAY,
+    GL_EDGE_FLAG_ARRAY,
+    GL_TEXTURE_COORD_ARRAY,
+    GL_INDEX_ARRAY,
+    GL_COLOR_ARRAY,
+    GL_NORMAL_ARRAY,
+    GL_VERTEX_ARRAY,
+];
+
+/// All enabled arrays in memory.
+fn in_order(gl: &Context) -> Vec<MemoryArray> {
+    let mut arrays: Vec<MemoryArray> = gl.memory_arrays().collect();
+    arrays.sort_by_key(|array| (ORDER.iter().position(|kind| *kind == array.array), array.unit));
+    arrays
 }
 
 /// Binds the buffer that pointers of arrays are offsets in; 0 lets them be addresses.
@@ -91,13 +116,10 @@ fn bind(recorder: &mut Recorder, buffer: i32) {
     unsafe { recorder.fake(id::glBindBuffer, &[GL_ARRAY_BUFFER.into(), buffer as u64], None) };
 }
 
-fn select_unit(recorder: &mut Recorder, unit: &mut usize, wanted: usize) {
-    if *unit != wanted {
-        *unit = wanted;
-        let name = u64::from(GL_TEXTURE0) + wanted as u64;
-        // SAFETY: no pointers.
-        unsafe { recorder.fake(id::glClientActiveTexture, &[name], None) };
-    }
+fn select_unit(recorder: &mut Recorder, unit: usize) {
+    let name = u64::from(GL_TEXTURE0) + unit as u64;
+    // SAFETY: no pointers.
+    unsafe { recorder.fake(id::glClientActiveTexture, &[name], None) };
 }
 
 /// The command that sets an array, and its arguments but the pointer.
@@ -122,17 +144,7 @@ pub fn is_format(arguments: &[u64]) -> bool {
 
 /// Records which arrays glInterleavedArrays switched. Those that are on are in the program's memory.
 pub fn after_interleaved_arrays(recorder: &mut Recorder, gl: &Context) {
-    let switched = [
-        GL_EDGE_FLAG_ARRAY,
-        GL_INDEX_ARRAY,
-        GL_SECONDARY_COLOR_ARRAY,
-        GL_FOG_COORDINATE_ARRAY,
-        GL_TEXTURE_COORD_ARRAY,
-        GL_COLOR_ARRAY,
-        GL_NORMAL_ARRAY,
-        GL_VERTEX_ARRAY,
-    ];
-    for array in switched {
+    for array in ORDER {
         let is_this = |other: &MemoryArray| {
             other.array == array
                 && (array != GL_TEXTURE_COORD_ARRAY || other.unit == gl.client_texture_unit())
@@ -152,9 +164,7 @@ pub fn after_interleaved_arrays(recorder: &mut Recorder, gl: &Context) {
 /// The arrays hold the element.
 pub unsafe fn element(recorder: &mut Recorder, gl: &Context, arguments: &[u64]) -> bool {
     let Ok(element) = usize::try_from(arguments[0] as i64) else { return false };
-    let mut arrays: Vec<MemoryArray> = gl.memory_arrays().collect();
-    // The position comes last, since it makes the vertex.
-    arrays.reverse();
+    let arrays = in_order(gl);
     for array in &arrays {
         let Some(id) = attribute_call(array) else { continue };
         let address = (array.address + array.bytes(element + 1).unwrap_or(0) - array.element_bytes()) as u64;

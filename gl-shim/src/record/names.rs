@@ -9,11 +9,49 @@ use afterglow_trace::write::{Bitmask, Enumeration};
 
 type Named = Vec<(&'static str, i64)>;
 
+/// Names with their values.
+macro_rules! named {
+    ($($name:ident)*) => {
+        &[$((stringify!($name), $name as _)),*]
+    };
+}
+pub(super) use named;
+
 static ENUMERANTS: LazyLock<Named> = LazyLock::new(|| {
     let small = [("GL_ZERO", 0), ("GL_ONE", 1)];
     let others = enumerant_names().iter().map(|&(value, name)| (name, value.into()));
-    small.into_iter().chain(others).collect()
+    small.into_iter().chain(PREFERRED.iter().copied()).chain(others).collect()
 });
+
+/// Names that tracers prefer to the oldest ones of the same values; the first name is what a reader shows.
+const PREFERRED: &[(&str, i64)] = &[
+    ("GL_MAX_CLIP_DISTANCES", GL_MAX_CLIP_PLANES as i64),
+    ("GL_CLIP_DISTANCE0", GL_CLIP_PLANE0 as i64),
+    ("GL_CLIP_DISTANCE1", GL_CLIP_PLANE1 as i64),
+    ("GL_CLIP_DISTANCE2", GL_CLIP_PLANE2 as i64),
+    ("GL_CLIP_DISTANCE3", GL_CLIP_PLANE3 as i64),
+    ("GL_CLIP_DISTANCE4", GL_CLIP_PLANE4 as i64),
+    ("GL_CLIP_DISTANCE5", GL_CLIP_PLANE5 as i64),
+    ("GL_COMPARE_REF_TO_TEXTURE", GL_COMPARE_R_TO_TEXTURE as i64),
+    ("GL_INDEX_LOGIC_OP", GL_INDEX_LOGIC_OP as i64),
+    ("GL_TEXTURE_INTERNAL_FORMAT", GL_TEXTURE_INTERNAL_FORMAT as i64),
+    ("GL_TEXTURE_COMPARE_FAIL_VALUE_ARB", GL_TEXTURE_COMPARE_FAIL_VALUE_ARB as i64),
+    ("GL_TEXTURE_MAX_ANISOTROPY_EXT", GL_TEXTURE_MAX_ANISOTROPY_EXT as i64),
+    ("GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT", GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT as i64),
+    ("GL_FOG_COORD_SRC", GL_FOG_COORD_SRC as i64),
+    ("GL_FOG_COORD", GL_FOG_COORD as i64),
+    ("GL_CURRENT_FOG_COORD", GL_CURRENT_FOG_COORD as i64),
+    ("GL_FOG_COORD_ARRAY_TYPE", GL_FOG_COORD_ARRAY_TYPE as i64),
+    ("GL_FOG_COORD_ARRAY_STRIDE", GL_FOG_COORD_ARRAY_STRIDE as i64),
+    ("GL_FOG_COORD_ARRAY_POINTER", GL_FOG_COORD_ARRAY_POINTER as i64),
+    ("GL_FOG_COORD_ARRAY", GL_FOG_COORD_ARRAY as i64),
+    ("GL_SRC0_RGB", GL_SRC0_RGB as i64),
+    ("GL_SRC1_RGB", GL_SRC1_RGB as i64),
+    ("GL_SRC2_RGB", GL_SRC2_RGB as i64),
+    ("GL_SRC0_ALPHA", GL_SRC0_ALPHA as i64),
+    ("GL_SRC1_ALPHA", GL_SRC1_ALPHA as i64),
+    ("GL_SRC2_ALPHA", GL_SRC2_ALPHA as i64),
+];
 
 /// GLenum.
 pub fn enumerants() -> Enumeration<'static> {

@@ -108,14 +108,21 @@ impl Recorder {
     ///
     /// # Safety
     /// As for [`enter`](Self::enter).
-    pub unsafe fn leave(&mut self, number: u32, id: CommandId, arguments: &[u64], result: u64) {
+    pub unsafe fn leave(
+        &mut self,
+        number: u32,
+        id: CommandId,
+        arguments: &[u64],
+        result: u64,
+        gl: Option<&Context>,
+    ) {
         let plan = plan(id);
         self.writer.leave(number);
         for (index, kind) in plan.kinds.iter().enumerate() {
             if plan.is_written(index) {
                 self.writer.argument(index);
                 // SAFETY: the contract is the same.
-                unsafe { self.value(*kind, arguments, index, None) };
+                unsafe { self.value(*kind, arguments, index, gl) };
             }
         }
         if let Some(kind) = plan.result {
@@ -166,6 +173,10 @@ impl Recorder {
                 }
                 Kind::Answers(number, pname) => {
                     self.array(number, bits, sizes::values_of(arguments[pname] as u32), None);
+                }
+                Kind::PixelMap(number) => {
+                    let values = gl.map_or(0, |gl| gl.pixel_map_len(arguments[0] as u32));
+                    self.array(number, bits, values, None);
                 }
                 Kind::Bytes(count) => self.bytes(bits, Some(natural(arguments[count]))),
                 Kind::Image(of) => self.bytes(bits, gl.and_then(|gl| sizes::image(gl, of, arguments))),

@@ -3,12 +3,7 @@
 use afterglow_api::constants::glx::*;
 use afterglow_trace::write::{Bitmask, Enumeration, Structure};
 
-/// Names with their values.
-macro_rules! named {
-    ($($name:ident)*) => {
-        &[$((stringify!($name), $name as _)),*]
-    };
-}
+use crate::record::names::named;
 
 /// Xlib's Bool.
 pub const BOOLEANS: Enumeration = Enumeration { id: 4, values: &[("False", 0), ("True", 1)] };

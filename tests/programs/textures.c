@@ -118,8 +118,6 @@ static void read_back(void)
 	glGetTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, floats);
 	glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, names);
 	glGetTexEnviv(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, names);
-	/* Of a larger map apitrace would record one value all the same. */
-	glGetPixelMapfv(GL_PIXEL_MAP_I_TO_I, floats);
 	glGetIntegerv(GL_VIEWPORT, numbers);
 	glGetIntegerv(GL_MATRIX_MODE, numbers);
 	glGetIntegerv(GL_MAX_TEXTURE_SIZE, numbers);

@@ -77,7 +77,8 @@ impl Plan {
         let kinds: Box<[Kind]> = command.params.iter().map(|param| kind(command, canonical, param)).collect();
         let written = params
             .filter(|(i, param)| {
-                let holds_values = matches!(kinds[*i], Kind::Array(..) | Kind::Answers(..) | Kind::PixelMap(_));
+                let holds_values =
+                    matches!(kinds[*i], Kind::Array(..) | Kind::Answers(..) | Kind::PixelMap(_));
                 param.ctype.pointers > 0 && !param.ctype.constant && holds_values
             })
             .fold(0, |written, (i, _)| written | 1 << i);
@@ -213,6 +214,9 @@ mod tests {
         assert_eq!(kinds(id::glDrawRangeElementsEXT)[5], Kind::Indices(3, 4));
         assert_eq!(plan(id::glVertexPointerEXT).role, Role::ArrayPointer);
         assert_eq!(kinds(id::glReadPixels)[6], Kind::Number(Number::Address));
+        assert_eq!(kinds(id::glGetPixelMapusv)[1], Kind::PixelMap(Number::U16));
+        assert_eq!(kinds(id::glFogfv)[1], Kind::Answers(Number::F32, 0));
+        assert!(!plan(id::glFogfv).is_written(1) && plan(id::glGetPixelMapusv).is_written(1));
         assert_eq!(plan(id::glGetString).result, Some(Kind::Text));
         assert_eq!(plan(id::glIsEnabled).result, Some(Kind::Number(Number::Boolean)));
         assert_eq!(plan(id::glEnd).result, None);

@@ -12,11 +12,7 @@ use crate::glx::xlib::{Display, VisualInfo};
 use crate::glx::{attributes, choose, displays};
 
 /// glXChooseVisual.
-pub unsafe fn choose_visual(
-    display: *mut Display,
-    screen: c_int,
-    list: *const c_int,
-) -> *mut VisualInfo {
+pub unsafe fn choose_visual(display: *mut Display, screen: c_int, list: *const c_int) -> *mut VisualInfo {
     guarded(|| {
         // SAFETY: the program vouches for its display and list.
         let (known, wanted) =
@@ -71,11 +67,7 @@ pub unsafe fn get_config(
 }
 
 /// glXGetFBConfigs.
-pub unsafe fn get_fb_configs(
-    display: *mut Display,
-    screen: c_int,
-    count: *mut c_int,
-) -> *mut *mut c_void {
+pub unsafe fn get_fb_configs(display: *mut Display, screen: c_int, count: *mut c_int) -> *mut *mut c_void {
     // SAFETY: the program vouches for all pointers.
     unsafe { find(display, screen, count, |table| table.iter().collect()) }
 }
@@ -109,11 +101,7 @@ unsafe fn find(
 }
 
 /// glXGetFBConfigAttrib. The result is an error code.
-pub unsafe fn get_fb_config_attrib(
-    config: *const c_void,
-    attribute: c_int,
-    value: *mut c_int,
-) -> c_int {
+pub unsafe fn get_fb_config_attrib(config: *const c_void, attribute: c_int, value: *mut c_int) -> c_int {
     let found = guarded(|| config::from_handle(config)).flatten();
     match found.and_then(|config| config.get(attribute as u32)) {
         Some(result) => {
@@ -126,10 +114,7 @@ pub unsafe fn get_fb_config_attrib(
 }
 
 /// glXGetVisualFromFBConfig.
-pub unsafe fn get_visual_from_fb_config(
-    display: *mut Display,
-    config: *const c_void,
-) -> *mut VisualInfo {
+pub unsafe fn get_visual_from_fb_config(display: *mut Display, config: *const c_void) -> *mut VisualInfo {
     guarded(|| {
         let config = config::from_handle(config)?;
         // SAFETY: the program vouches for its display.
@@ -141,10 +126,7 @@ pub unsafe fn get_visual_from_fb_config(
 }
 
 /// glXGetFBConfigFromVisualSGIX.
-pub unsafe fn get_fb_config_from_visual(
-    display: *mut Display,
-    visual: *const VisualInfo,
-) -> *mut c_void {
+pub unsafe fn get_fb_config_from_visual(display: *mut Display, visual: *const VisualInfo) -> *mut c_void {
     // SAFETY: the program vouches for both pointers.
     guarded(|| unsafe { of_visual(display, visual) }).flatten().map_or(null_mut(), Config::handle)
 }

@@ -18,11 +18,7 @@ use crate::glx::xlib::{self, Display, VisualInfo, Xid};
 const MOST_INTERVAL: c_uint = 1;
 
 /// glXCreateWindow.
-pub unsafe fn create_window(
-    display: *mut Display,
-    config: *const c_void,
-    window: Xid,
-) -> Xid {
+pub unsafe fn create_window(display: *mut Display, config: *const c_void, window: Xid) -> Xid {
     // SAFETY: the program vouches for its display.
     guarded(|| unsafe { of_x(display, config::from_handle(config)?, window, Kind::Window { window }) })
         .flatten()
@@ -30,11 +26,7 @@ pub unsafe fn create_window(
 }
 
 /// glXCreatePixmap.
-pub unsafe fn create_pixmap(
-    display: *mut Display,
-    config: *const c_void,
-    pixmap: Xid,
-) -> Xid {
+pub unsafe fn create_pixmap(display: *mut Display, config: *const c_void, pixmap: Xid) -> Xid {
     // SAFETY: the program vouches for its display.
     guarded(|| unsafe { of_x(display, config::from_handle(config)?, pixmap, Kind::Pixmap) })
         .flatten()
@@ -42,11 +34,7 @@ pub unsafe fn create_pixmap(
 }
 
 /// glXCreateGLXPixmap.
-pub unsafe fn create_glx_pixmap(
-    display: *mut Display,
-    visual: *const VisualInfo,
-    pixmap: Xid,
-) -> Xid {
+pub unsafe fn create_glx_pixmap(display: *mut Display, visual: *const VisualInfo, pixmap: Xid) -> Xid {
     // SAFETY: the program vouches for display and visual.
     guarded(|| unsafe { of_x(display, of_visual(display, visual)?, pixmap, Kind::Pixmap) })
         .flatten()
@@ -67,11 +55,7 @@ unsafe fn of_x(display: *mut Display, config: &'static Config, id: Xid, kind: Ki
 }
 
 /// glXCreatePbuffer.
-pub unsafe fn create_pbuffer(
-    display: *mut Display,
-    config: *const c_void,
-    list: *const c_int,
-) -> Xid {
+pub unsafe fn create_pbuffer(display: *mut Display, config: *const c_void, list: *const c_int) -> Xid {
     guarded(|| {
         // SAFETY: the program vouches for its list.
         let wanted = unsafe { attributes::read(list, &[]) };
@@ -132,12 +116,7 @@ pub fn destroy_drawable(display: *mut Display, drawable: Xid) {
 }
 
 /// glXQueryDrawable.
-pub unsafe fn query_drawable(
-    display: *mut Display,
-    drawable: Xid,
-    attribute: c_int,
-    value: *mut c_uint,
-) {
+pub unsafe fn query_drawable(display: *mut Display, drawable: Xid, attribute: c_int, value: *mut c_uint) {
     let result = guarded(|| {
         // SAFETY: the program vouches for its display.
         let found = unsafe { drawables::get_or_window(display, drawable) }?;
@@ -178,4 +157,3 @@ pub unsafe fn get_selected_event(display: *mut Display, drawable: Xid, mask: *mu
     // SAFETY: the program vouches for its pointer.
     unsafe { put(mask, kept as c_ulong) };
 }
-

@@ -69,4 +69,3 @@ pub unsafe fn get_proc_address(name: *const u8) -> *const c_void {
     let name = unsafe { CStr::from_ptr(name.cast()) };
     guarded(|| proc_address::find(name)).flatten().unwrap_or(null())
 }
-

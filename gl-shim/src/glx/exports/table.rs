@@ -7,7 +7,8 @@ use super::{configs, contexts, drawables, fonts, server, swap};
 use crate::glx::xlib::{Display, VisualInfo, Xid};
 use crate::record;
 use crate::record::glx::Kind::{
-    Attribute, Bool, Error, Handles, Id, Int, Pointer, StringName, Text, Visual, WrittenInt, WrittenMask, WrittenUint,
+    Attribute, Bool, Error, Handles, Id, Int, Pointer, StringName, Text, Visual, WrittenInt, WrittenMask,
+    WrittenUint,
 };
 use crate::record::glx::{Kind, List, Signature};
 

@@ -64,9 +64,9 @@ fn of_config(attribute: u32) -> Meaning {
 
 fn of_context(attribute: u32) -> Meaning {
     match attribute {
-        GLX_RENDER_TYPE
-        | GLX_CONTEXT_RESET_NOTIFICATION_STRATEGY_ARB
-        | GLX_CONTEXT_RELEASE_BEHAVIOR_ARB => Meaning::Name,
+        GLX_RENDER_TYPE | GLX_CONTEXT_RESET_NOTIFICATION_STRATEGY_ARB | GLX_CONTEXT_RELEASE_BEHAVIOR_ARB => {
+            Meaning::Name
+        }
         GLX_CONTEXT_FLAGS_ARB => Meaning::Bits(&names::CONTEXT_BITS),
         GLX_CONTEXT_PROFILE_MASK_ARB => Meaning::Bits(&names::PROFILE_BITS),
         GLX_CONTEXT_OPENGL_NO_ERROR_ARB => Meaning::Bool,

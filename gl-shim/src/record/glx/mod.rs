@@ -101,4 +101,3 @@ pub fn drawable_size(width: u32, height: u32) {
         }
     });
 }
-

@@ -20,7 +20,8 @@ pub const ERRORS: Enumeration = Enumeration {
 };
 
 /// Strings that can be asked for.
-pub const STRINGS: Enumeration = Enumeration { id: 7, values: named! { GLX_VENDOR GLX_VERSION GLX_EXTENSIONS } };
+pub const STRINGS: Enumeration =
+    Enumeration { id: 7, values: named! { GLX_VENDOR GLX_VERSION GLX_EXTENSIONS } };
 
 /// Of a configuration.
 pub const RENDER_BITS: Bitmask = Bitmask { id: 2, flags: named! { GLX_RGBA_BIT GLX_COLOR_INDEX_BIT } };

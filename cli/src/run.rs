@@ -52,6 +52,10 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         Err(error) if error.is_no_device() => {
             eprintln!("afterglow: {error}\nafterglow: starting the program with the system's OpenGL");
+            if arguments.record.is_some() {
+                eprintln!("afterglow: nothing is recorded");
+                command.env_remove("AFTERGLOW_RECORD");
+            }
         }
         Err(error) => return Err(Failure::Device(error)),
     }

@@ -31,6 +31,15 @@ fn every_name_is_exported() {
 }
 
 #[test]
+fn our_addresses_are_those_of_our_functions() {
+    let Ok(output) = Command::new("readelf").args(["-rW"]).arg(library()).output() else { return };
+    let text = String::from_utf8(output.stdout).unwrap();
+    let symbols = text.lines().filter_map(|line| line.split_whitespace().nth(4));
+    let by_name: Vec<&str> = symbols.filter(|name| name.starts_with("gl")).collect();
+    assert!(by_name.is_empty(), "a preloaded library would replace {by_name:?}");
+}
+
+#[test]
 fn no_name_of_the_system_s_library_is_missing() {
     if !Path::new(SYSTEM).exists() {
         return;

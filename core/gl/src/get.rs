@@ -78,6 +78,9 @@ fn fractions(values: &[f32]) -> Option<Value> {
     Some(Value::Fractions(values.iter().map(|&v| v.into()).collect()))
 }
 
+/// GL_MAX_TEXTURE_COORDS of OpenGL 2.0. Tracers ask for it to find all arrays of texture coordinates.
+const MAX_TEXTURE_COORDS: u32 = 0x8871;
+
 impl Context {
     /// glGet in the form before conversion; an error and nothing for unknown names.
     pub fn get(&mut self, pname: u32) -> Option<Value> {
@@ -132,7 +135,7 @@ impl Context {
         match pname {
             GL_MAX_LIGHTS => limit(LIGHTS),
             GL_MAX_CLIP_PLANES => limit(CLIP_PLANES),
-            GL_MAX_TEXTURE_UNITS => limit(TEXTURE_UNITS),
+            GL_MAX_TEXTURE_UNITS | MAX_TEXTURE_COORDS => limit(TEXTURE_UNITS),
             GL_MAX_TEXTURE_SIZE => limit(crate::texture::MAX_SIZE),
             GL_MAX_3D_TEXTURE_SIZE => limit(crate::texture::MAX_3D_SIZE),
             GL_MAX_CUBE_MAP_TEXTURE_SIZE => limit(crate::texture::MAX_CUBE_SIZE),
@@ -323,6 +326,11 @@ impl Context {
                 .or_else(|| floats(&[self.transfer.modes.get(pname)?]))
                 .or_else(|| ints([self.transfer.maps.size(pname)? as i32])),
         }
+    }
+
+    /// How many values glGetPixelMap gives; none of a map that there is not.
+    pub fn pixel_map_len(&self, map: u32) -> usize {
+        self.transfer.maps.get(map).map_or(0, <[f32]>::len)
     }
 
     /// glGetPixelMap.

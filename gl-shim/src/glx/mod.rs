@@ -17,8 +17,8 @@ mod drawables;
 pub mod exports;
 mod glyphs;
 pub mod proc_address;
-mod recording;
 mod render;
 mod xlib;
 
 pub use binding::{flushed, viewport_set};
+pub(crate) use xlib::VisualInfo;

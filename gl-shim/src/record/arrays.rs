@@ -6,10 +6,9 @@ use afterglow_api::{CommandId, id};
 use afterglow_gl::{Context, MemoryArray};
 
 use super::number::Number;
-use super::plan::{Role, plan};
+use super::plan::Role;
 use super::recorder::Recorder;
 use super::sizes::natural;
-use super::thread;
 
 /// Records the arrays that a draw is about to read.
 ///
@@ -62,30 +61,65 @@ fn indexed(gl: &mut Context, count: u64, kind: u64, indices: u64) -> usize {
     gl.indexed_vertices(count as i32, kind as u32, crate::memory::pointer(indices as usize as *const _))
 }
 
-/// Records all enabled arrays in memory, the vertices last.
-unsafe fn arrays(recorder: &mut Recorder, gl: &Context, vertices: usize) {
-    let mut arrays: Vec<MemoryArray> = gl.memory_arrays().collect();
-    arrays.reverse();
-    let mut unit = gl.client_texture_unit();
-    for array in arrays {
-        if array.array == GL_TEXTURE_COORD_ARRAY {
-            select_unit(recorder, &mut unit, array.unit);
+/// Records all enabled arrays in memory.
+unsafe fn arrays(recorder: &mut Recorder, gl: &mut Context, vertices: usize) {
+    let bound = gl.get_integer(GL_ARRAY_BUFFER_BINDING).first().copied().unwrap_or(0);
+    if bound != 0 {
+        bind(recorder, 0);
+    }
+    let own_unit = gl.client_texture_unit();
+    let mut is_other = false;
+    for array in in_order(gl) {
+        if array.array != GL_TEXTURE_COORD_ARRAY {
+            if std::mem::take(&mut is_other) {
+                select_unit(recorder, own_unit);
+            }
+        } else if is_other || array.unit != own_unit {
+            is_other = true;
+            select_unit(recorder, array.unit);
         }
         let bytes = array.bytes(vertices);
         let (id, arguments) = pointer_call(&array);
         // SAFETY: the array holds so many vertices.
-        unsafe { fake(recorder, id, &arguments, Some((array.address as u64, bytes))) };
+        unsafe { recorder.fake(id, &arguments, Some((array.address as u64, bytes))) };
     }
-    select_unit(recorder, &mut unit, gl.client_texture_unit());
+    if is_other {
+        select_unit(recorder, own_unit);
+    }
+    if bound != 0 {
+        bind(recorder, bound);
+    }
 }
 
-fn select_unit(recorder: &mut Recorder, unit: &mut usize, wanted: usize) {
-    if *unit != wanted {
-        *unit = wanted;
-        let name = u64::from(GL_TEXTURE0) + wanted as u64;
-        // SAFETY: no pointers.
-        unsafe { fake(recorder, id::glClientActiveTexture, &[name], None) };
-    }
+/// Arrays in the order in which apitrace has them. The position comes last, since it makes the vertex.
+const ORDER: [u32; 8] = [
+    GL_SECONDARY_COLOR_ARRAY,
+    GL_FOG_COORDINATE_ARRAY,
+    GL_EDGE_FLAG_ARRAY,
+    GL_TEXTURE_COORD_ARRAY,
+    GL_INDEX_ARRAY,
+    GL_COLOR_ARRAY,
+    GL_NORMAL_ARRAY,
+    GL_VERTEX_ARRAY,
+];
+
+/// All enabled arrays in memory.
+fn in_order(gl: &Context) -> Vec<MemoryArray> {
+    let mut arrays: Vec<MemoryArray> = gl.memory_arrays().collect();
+    arrays.sort_by_key(|array| (ORDER.iter().position(|kind| *kind == array.array), array.unit));
+    arrays
+}
+
+/// Binds the buffer that pointers of arrays are offsets in; 0 lets them be addresses.
+fn bind(recorder: &mut Recorder, buffer: i32) {
+    // SAFETY: no pointers.
+    unsafe { recorder.fake(id::glBindBuffer, &[GL_ARRAY_BUFFER.into(), buffer as u64], None) };
+}
+
+fn select_unit(recorder: &mut Recorder, unit: usize) {
+    let name = u64::from(GL_TEXTURE0) + unit as u64;
+    // SAFETY: no pointers.
+    unsafe { recorder.fake(id::glClientActiveTexture, &[name], None) };
 }
 
 /// The command that sets an array, and its arguments but the pointer.
@@ -103,29 +137,6 @@ fn pointer_call(array: &MemoryArray) -> (CommandId, Vec<u64>) {
     }
 }
 
-/// Records a call that the program did not make; a blob follows the arguments.
-unsafe fn fake(
-    recorder: &mut Recorder,
-    id: CommandId,
-    arguments: &[u64],
-    memory: Option<(u64, Option<usize>)>,
-) {
-    let plan = plan(id);
-    let number = recorder.begin(thread(), id, plan);
-    recorder.writer.fake();
-    // SAFETY: the contract is the caller's.
-    unsafe {
-        recorder.arguments(plan, &plan.kinds[..arguments.len()], arguments, None);
-        if let Some((address, bytes)) = memory {
-            recorder.writer.argument(arguments.len());
-            recorder.bytes(address, bytes);
-        }
-    }
-    recorder.writer.end();
-    recorder.writer.leave(number);
-    recorder.writer.end();
-}
-
 /// Whether glInterleavedArrays knows the format and the stride.
 pub fn is_format(arguments: &[u64]) -> bool {
     (GL_V2F..=GL_T4F_C4F_N3F_V4F).contains(&(arguments[0] as u32)) && arguments[1] as i64 >= 0
@@ -133,17 +144,7 @@ pub fn is_format(arguments: &[u64]) -> bool {
 
 /// Records which arrays glInterleavedArrays switched. Those that are on are in the program's memory.
 pub fn after_interleaved_arrays(recorder: &mut Recorder, gl: &Context) {
-    let switched = [
-        GL_EDGE_FLAG_ARRAY,
-        GL_INDEX_ARRAY,
-        GL_SECONDARY_COLOR_ARRAY,
-        GL_FOG_COORDINATE_ARRAY,
-        GL_TEXTURE_COORD_ARRAY,
-        GL_COLOR_ARRAY,
-        GL_NORMAL_ARRAY,
-        GL_VERTEX_ARRAY,
-    ];
-    for array in switched {
+    for array in ORDER {
         let is_this = |other: &MemoryArray| {
             other.array == array
                 && (array != GL_TEXTURE_COORD_ARRAY || other.unit == gl.client_texture_unit())
@@ -153,7 +154,7 @@ pub fn after_interleaved_arrays(recorder: &mut Recorder, gl: &Context) {
             false => id::glDisableClientState,
         };
         // SAFETY: no pointers.
-        unsafe { fake(recorder, id, &[array.into()], None) };
+        unsafe { recorder.fake(id, &[array.into()], None) };
     }
 }
 
@@ -163,16 +164,14 @@ pub fn after_interleaved_arrays(recorder: &mut Recorder, gl: &Context) {
 /// The arrays hold the element.
 pub unsafe fn element(recorder: &mut Recorder, gl: &Context, arguments: &[u64]) -> bool {
     let Ok(element) = usize::try_from(arguments[0] as i64) else { return false };
-    let mut arrays: Vec<MemoryArray> = gl.memory_arrays().collect();
-    // The position comes last, since it makes the vertex.
-    arrays.reverse();
+    let arrays = in_order(gl);
     for array in &arrays {
         let Some(id) = attribute_call(array) else { continue };
         let address = (array.address + array.bytes(element + 1).unwrap_or(0) - array.element_bytes()) as u64;
         let unit = u64::from(GL_TEXTURE0) + array.unit as u64;
         let arguments = if array.unit > 0 { vec![unit, address] } else { vec![address] };
         // SAFETY: the contract is the same.
-        unsafe { fake(recorder, id, &arguments, None) };
+        unsafe { recorder.fake(id, &arguments, None) };
     }
     !arrays.is_empty()
 }

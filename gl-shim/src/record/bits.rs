@@ -29,6 +29,7 @@ bits! {
     u8: value => value.into();
     u16: value => value.into();
     u32: value => value.into();
+    u64: value => value;
     usize: value => value as u64;
     i8: value => i64::from(value) as u64;
     i16: value => i64::from(value) as u64;

@@ -165,15 +165,13 @@ unsafe fn prepare(
 
 unsafe fn leave(entered: Entered, id: CommandId, arguments: &[u64], result: u64) {
     let Some(mut recorder) = recorder() else { return };
-    match entered {
+    // SAFETY: as in `enter`.
+    let gl = unsafe { current::get().as_ref() };
+    match (entered, gl) {
         // SAFETY: the contract is the same.
-        Entered::Call(number) => unsafe { recorder.leave(number, id, arguments, result) },
-        Entered::InterleavedArrays => {
-            // SAFETY: as in `enter`.
-            if let Some(gl) = unsafe { current::get().as_ref() } {
-                arrays::after_interleaved_arrays(&mut recorder, gl);
-            }
-        }
+        (Entered::Call(number), gl) => unsafe { recorder.leave(number, id, arguments, result, gl) },
+        (Entered::InterleavedArrays, Some(gl)) => arrays::after_interleaved_arrays(&mut recorder, gl),
+        (Entered::InterleavedArrays, None) => {}
     }
     let failed = recorder.failed;
     drop(recorder);

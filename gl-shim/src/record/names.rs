@@ -1,19 +1,57 @@
 //! Enumerations and bitmasks as apitrace divides them: one large enumeration, and small ones where small numbers mean
-//! something of their own.
+//! something of their own. Ids of those of GLX follow these (`glx::names`).
 
 use std::sync::LazyLock;
 
 use afterglow_api::constants::*;
 use afterglow_api::enumerant_names;
-use afterglow_trace::write::{Bitmask, Enumeration, Structure};
+use afterglow_trace::write::{Bitmask, Enumeration};
 
 type Named = Vec<(&'static str, i64)>;
+
+/// Names with their values.
+macro_rules! named {
+    ($($name:ident)*) => {
+        &[$((stringify!($name), $name as _)),*]
+    };
+}
+pub(super) use named;
 
 static ENUMERANTS: LazyLock<Named> = LazyLock::new(|| {
     let small = [("GL_ZERO", 0), ("GL_ONE", 1)];
     let others = enumerant_names().iter().map(|&(value, name)| (name, value.into()));
-    small.into_iter().chain(others).collect()
+    small.into_iter().chain(PREFERRED.iter().copied()).chain(others).collect()
 });
+
+/// Names that tracers prefer to the oldest ones of the same values; the first name is what a reader shows.
+const PREFERRED: &[(&str, i64)] = &[
+    ("GL_MAX_CLIP_DISTANCES", GL_MAX_CLIP_PLANES as i64),
+    ("GL_CLIP_DISTANCE0", GL_CLIP_PLANE0 as i64),
+    ("GL_CLIP_DISTANCE1", GL_CLIP_PLANE1 as i64),
+    ("GL_CLIP_DISTANCE2", GL_CLIP_PLANE2 as i64),
+    ("GL_CLIP_DISTANCE3", GL_CLIP_PLANE3 as i64),
+    ("GL_CLIP_DISTANCE4", GL_CLIP_PLANE4 as i64),
+    ("GL_CLIP_DISTANCE5", GL_CLIP_PLANE5 as i64),
+    ("GL_COMPARE_REF_TO_TEXTURE", GL_COMPARE_R_TO_TEXTURE as i64),
+    ("GL_INDEX_LOGIC_OP", GL_INDEX_LOGIC_OP as i64),
+    ("GL_TEXTURE_INTERNAL_FORMAT", GL_TEXTURE_INTERNAL_FORMAT as i64),
+    ("GL_TEXTURE_COMPARE_FAIL_VALUE_ARB", GL_TEXTURE_COMPARE_FAIL_VALUE_ARB as i64),
+    ("GL_TEXTURE_MAX_ANISOTROPY_EXT", GL_TEXTURE_MAX_ANISOTROPY_EXT as i64),
+    ("GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT", GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT as i64),
+    ("GL_FOG_COORD_SRC", GL_FOG_COORD_SRC as i64),
+    ("GL_FOG_COORD", GL_FOG_COORD as i64),
+    ("GL_CURRENT_FOG_COORD", GL_CURRENT_FOG_COORD as i64),
+    ("GL_FOG_COORD_ARRAY_TYPE", GL_FOG_COORD_ARRAY_TYPE as i64),
+    ("GL_FOG_COORD_ARRAY_STRIDE", GL_FOG_COORD_ARRAY_STRIDE as i64),
+    ("GL_FOG_COORD_ARRAY_POINTER", GL_FOG_COORD_ARRAY_POINTER as i64),
+    ("GL_FOG_COORD_ARRAY", GL_FOG_COORD_ARRAY as i64),
+    ("GL_SRC0_RGB", GL_SRC0_RGB as i64),
+    ("GL_SRC1_RGB", GL_SRC1_RGB as i64),
+    ("GL_SRC2_RGB", GL_SRC2_RGB as i64),
+    ("GL_SRC0_ALPHA", GL_SRC0_ALPHA as i64),
+    ("GL_SRC1_ALPHA", GL_SRC1_ALPHA as i64),
+    ("GL_SRC2_ALPHA", GL_SRC2_ALPHA as i64),
+];
 
 /// GLenum.
 pub fn enumerants() -> Enumeration<'static> {
@@ -49,60 +87,6 @@ pub const ERRORS: Enumeration = Enumeration {
         ("GL_STACK_OVERFLOW", GL_STACK_OVERFLOW as i64),
         ("GL_STACK_UNDERFLOW", GL_STACK_UNDERFLOW as i64),
         ("GL_OUT_OF_MEMORY", GL_OUT_OF_MEMORY as i64),
-    ],
-};
-
-/// Xlib's Bool.
-pub const X_BOOLEANS: Enumeration = Enumeration { id: 4, values: &[("False", 0), ("True", 1)] };
-
-/// Names of GLX: attributes, and values of some.
-pub const GLX: Enumeration = Enumeration {
-    id: 5,
-    values: &[
-        ("GLX_USE_GL", 1),
-        ("GLX_BUFFER_SIZE", 2),
-        ("GLX_LEVEL", 3),
-        ("GLX_RGBA", 4),
-        ("GLX_DOUBLEBUFFER", 5),
-        ("GLX_STEREO", 6),
-        ("GLX_AUX_BUFFERS", 7),
-        ("GLX_RED_SIZE", 8),
-        ("GLX_GREEN_SIZE", 9),
-        ("GLX_BLUE_SIZE", 10),
-        ("GLX_ALPHA_SIZE", 11),
-        ("GLX_DEPTH_SIZE", 12),
-        ("GLX_STENCIL_SIZE", 13),
-        ("GLX_ACCUM_RED_SIZE", 14),
-        ("GLX_ACCUM_GREEN_SIZE", 15),
-        ("GLX_ACCUM_BLUE_SIZE", 16),
-        ("GLX_ACCUM_ALPHA_SIZE", 17),
-        ("GLX_CONFIG_CAVEAT", 0x20),
-        ("GLX_X_VISUAL_TYPE", 0x22),
-        ("GLX_TRANSPARENT_TYPE", 0x23),
-        ("GLX_CONTEXT_MAJOR_VERSION_ARB", 0x2091),
-        ("GLX_CONTEXT_MINOR_VERSION_ARB", 0x2092),
-        ("GLX_CONTEXT_FLAGS_ARB", 0x2094),
-        ("GLX_NONE", 0x8000),
-        ("GLX_TRUE_COLOR", 0x8002),
-        ("GLX_DIRECT_COLOR", 0x8003),
-        ("GLX_VISUAL_ID", 0x800b),
-        ("GLX_SCREEN", 0x800c),
-        ("GLX_DRAWABLE_TYPE", 0x8010),
-        ("GLX_RENDER_TYPE", 0x8011),
-        ("GLX_X_RENDERABLE", 0x8012),
-        ("GLX_FBCONFIG_ID", 0x8013),
-        ("GLX_RGBA_TYPE", 0x8014),
-        ("GLX_COLOR_INDEX_TYPE", 0x8015),
-        ("GLX_PRESERVED_CONTENTS", 0x801b),
-        ("GLX_LARGEST_PBUFFER", 0x801c),
-        ("GLX_WIDTH", 0x801d),
-        ("GLX_HEIGHT", 0x801e),
-        ("GLX_PBUFFER_HEIGHT", 0x8040),
-        ("GLX_PBUFFER_WIDTH", 0x8041),
-        ("GLX_CONTEXT_PROFILE_MASK_ARB", 0x9126),
-        ("GLX_SAMPLE_BUFFERS", 100_000),
-        ("GLX_SAMPLES", 100_001),
-        ("GLX_DONT_CARE", 0xffff_ffff),
     ],
 };
 
@@ -142,23 +126,6 @@ pub const CLIENT_ATTRIBUTE_BITS: Bitmask = Bitmask {
         ("GL_CLIENT_ALL_ATTRIB_BITS", 0xffff_ffff),
         ("GL_CLIENT_PIXEL_STORE_BIT", 1),
         ("GL_CLIENT_VERTEX_ARRAY_BIT", 2),
-    ],
-};
-
-pub const VISUAL: Structure = Structure {
-    id: 0,
-    name: "XVisualInfo",
-    members: &[
-        "visual",
-        "visualid",
-        "screen",
-        "depth",
-        "c_class",
-        "red_mask",
-        "green_mask",
-        "blue_mask",
-        "colormap_size",
-        "bits_per_rgb",
     ],
 };
 

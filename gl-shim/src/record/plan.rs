@@ -14,10 +14,12 @@ pub enum Kind {
     Parameter(Number, usize),
     /// An array that is read (or written, see [`Plan::is_written`]).
     Array(Number, Length),
-    /// As many numbers as the parameter name at that position has.
+    /// As many numbers as the parameter name at that position has; they may be enumerants.
     Parameters(Number, usize),
-    /// The same, written by the command.
+    /// The same, of numbers only; most are written by the command.
     Answers(Number, usize),
+    /// All values of the pixel map of the first argument, written by the command.
+    PixelMap(Number),
     /// As many bytes as an argument says.
     Bytes(usize),
     /// An image that the pixel store describes: format, type, and up to three sizes.
@@ -75,7 +77,8 @@ impl Plan {
         let kinds: Box<[Kind]> = command.params.iter().map(|param| kind(command, canonical, param)).collect();
         let written = params
             .filter(|(i, param)| {
-                let holds_values = matches!(kinds[*i], Kind::Array(..) | Kind::Answers(..));
+                let holds_values =
+                    matches!(kinds[*i], Kind::Array(..) | Kind::Answers(..) | Kind::PixelMap(_));
                 param.ctype.pointers > 0 && !param.ctype.constant && holds_values
             })
             .fold(0, |written, (i, _)| written | 1 << i);
@@ -100,13 +103,11 @@ pub fn plan(id: CommandId) -> &'static Plan {
 fn name(command: &Command, param: &Param) -> &'static str {
     match (command.name, param.name) {
         ("glGetBooleanv" | "glGetDoublev" | "glGetFloatv" | "glGetIntegerv", "data") => "params",
+        ("glMultiDrawArraysEXT" | "glMultiDrawElementsEXT", "primcount") => "drawcount",
+        ("glColorTableEXT", "internalFormat") => "internalformat",
         ("glDrawBuffer", "buf") | ("glReadBuffer", "src") => "mode",
         ("glDepthRange", "n") => "zNear",
         ("glDepthRange", "f") => "zFar",
-        ("glXChooseFBConfig" | "glXCreateWindow", "attrib_list") => "attribList",
-        ("glXChooseFBConfig", "nelements") => "nitems",
-        ("glXCreateNewContext", "render_type") => "renderType",
-        ("glXCreateNewContext", "share_list") => "shareList",
         (_, name) => name,
     }
 }
@@ -117,6 +118,8 @@ fn result(command: &Command) -> Option<Kind> {
     match (ctype.base, ctype.pointers) {
         (Base::UByte, 1) => Some(Kind::Text),
         (_, 1..) => Some(Kind::Number(Number::Address)),
+        // A number of hits or values, but tracers have it so.
+        (Base::Int, 0) if command.name == "glRenderMode" => Some(Kind::Number(Number::Enum)),
         (Base::Enum, 0) if command.name == "glGetError" => Some(Kind::Number(Number::Error)),
         (_, 0) => Number::of(&param).map(Kind::Number),
     }
@@ -147,11 +150,8 @@ fn kind(command: &'static Command, canonical: CommandId, param: &'static Param) 
             (None, _) => Kind::Number(Number::Address),
         };
     }
-    match canonical {
-        id::glMultiDrawElements if param.name == "indices" => return Kind::IndexLists,
-        // What they point to is written as long as the mode lasts.
-        id::glSelectBuffer | id::glFeedbackBuffer => return Kind::Number(Number::Address),
-        _ => {}
+    if canonical == id::glMultiDrawElements && param.name == "indices" {
+        return Kind::IndexLists;
     }
     match (number, param.length) {
         (_, Length::Count(_)) if param.ctype.pointers == 2 => Kind::Array(Number::Address, param.length),
@@ -174,6 +174,9 @@ fn computed(
     pname: Option<usize>,
 ) -> Kind {
     match (canonical, of, number) {
+        (id::glGetPixelMapfv | id::glGetPixelMapuiv | id::glGetPixelMapusv, _, Some(number)) => {
+            Kind::PixelMap(number)
+        }
         (id::glBitmap, ..) => Kind::Bitmap(of),
         (id::glPolygonStipple, ..) => Kind::Stipple,
         (id::glMap1d | id::glMap1f, _, Some(number)) => Kind::Points(number, 1),
@@ -182,6 +185,7 @@ fn computed(
         (id::glDrawElements | id::glDrawRangeElements, &[count, kind], _) => {
             Kind::Indices(count.into(), kind.into())
         }
+        (id::glFogfv | id::glFogiv, &[of], Some(number)) => Kind::Answers(number, of.into()),
         (_, &[of], Some(number)) if pname.is_some() && param.ctype.constant => {
             Kind::Parameters(number, of.into())
         }
@@ -210,6 +214,9 @@ mod tests {
         assert_eq!(kinds(id::glDrawRangeElementsEXT)[5], Kind::Indices(3, 4));
         assert_eq!(plan(id::glVertexPointerEXT).role, Role::ArrayPointer);
         assert_eq!(kinds(id::glReadPixels)[6], Kind::Number(Number::Address));
+        assert_eq!(kinds(id::glGetPixelMapusv)[1], Kind::PixelMap(Number::U16));
+        assert_eq!(kinds(id::glFogfv)[1], Kind::Answers(Number::F32, 0));
+        assert!(!plan(id::glFogfv).is_written(1) && plan(id::glGetPixelMapusv).is_written(1));
         assert_eq!(plan(id::glGetString).result, Some(Kind::Text));
         assert_eq!(plan(id::glIsEnabled).result, Some(Kind::Number(Number::Boolean)));
         assert_eq!(plan(id::glEnd).result, None);

@@ -13,6 +13,7 @@ use super::names;
 use super::number::{Number, Writer};
 use super::plan::{Kind, Plan, plan};
 use super::sizes::{self, natural};
+use super::thread;
 use crate::memory;
 
 /// How old what is not in the file yet may become while calls are made.
@@ -62,7 +63,7 @@ impl Recorder {
         number
     }
 
-    pub fn begin(&mut self, thread: u32, id: CommandId, plan: &Plan) -> u32 {
+    fn begin(&mut self, thread: u32, id: CommandId, plan: &Plan) -> u32 {
         let function = Function { id: id.index() as u32, name: id.name(), arguments: &plan.names };
         self.writer.enter(thread, &function)
     }
@@ -71,7 +72,7 @@ impl Recorder {
     ///
     /// # Safety
     /// As for [`enter`](Self::enter).
-    pub unsafe fn arguments(&mut self, plan: &Plan, kinds: &[Kind], arguments: &[u64], gl: Option<&Context>) {
+    unsafe fn arguments(&mut self, plan: &Plan, kinds: &[Kind], arguments: &[u64], gl: Option<&Context>) {
         for (index, kind) in kinds.iter().enumerate() {
             if !plan.is_written(index) {
                 self.writer.argument(index);
@@ -81,18 +82,47 @@ impl Recorder {
         }
     }
 
+    /// Writes a call that the program did not make. Memory, if there is any, follows the arguments: its address, and how
+    /// much of it is read.
+    ///
+    /// # Safety
+    /// As for [`enter`](Self::enter).
+    pub unsafe fn fake(&mut self, id: CommandId, arguments: &[u64], memory: Option<(u64, Option<usize>)>) {
+        let plan = plan(id);
+        let number = self.begin(thread(), id, plan);
+        self.writer.fake();
+        // SAFETY: the contract is the same.
+        unsafe {
+            self.arguments(plan, &plan.kinds[..arguments.len()], arguments, None);
+            if let Some((address, bytes)) = memory {
+                self.writer.argument(arguments.len());
+                self.bytes(address, bytes);
+            }
+        }
+        self.writer.end();
+        self.writer.leave(number);
+        self.writer.end();
+    }
+
     /// Writes what a call gives.
     ///
     /// # Safety
     /// As for [`enter`](Self::enter).
-    pub unsafe fn leave(&mut self, number: u32, id: CommandId, arguments: &[u64], result: u64) {
+    pub unsafe fn leave(
+        &mut self,
+        number: u32,
+        id: CommandId,
+        arguments: &[u64],
+        result: u64,
+        gl: Option<&Context>,
+    ) {
         let plan = plan(id);
         self.writer.leave(number);
         for (index, kind) in plan.kinds.iter().enumerate() {
             if plan.is_written(index) {
                 self.writer.argument(index);
                 // SAFETY: the contract is the same.
-                unsafe { self.value(*kind, arguments, index, None) };
+                unsafe { self.value(*kind, arguments, index, gl) };
             }
         }
         if let Some(kind) = plan.result {
@@ -144,6 +174,10 @@ impl Recorder {
                 Kind::Answers(number, pname) => {
                     self.array(number, bits, sizes::values_of(arguments[pname] as u32), None);
                 }
+                Kind::PixelMap(number) => {
+                    let values = gl.map_or(0, |gl| gl.pixel_map_len(arguments[0] as u32));
+                    self.array(number, bits, values, None);
+                }
                 Kind::Bytes(count) => self.bytes(bits, Some(natural(arguments[count]))),
                 Kind::Image(of) => self.bytes(bits, gl.and_then(|gl| sizes::image(gl, of, arguments))),
                 Kind::Bitmap(of) => self.bytes(bits, gl.and_then(|gl| sizes::bitmap(gl, of, arguments))),
@@ -188,7 +222,7 @@ impl Recorder {
     }
 
     /// Bytes that are read; none of a command in error.
-    pub unsafe fn bytes(&mut self, address: u64, count: Option<usize>) {
+    unsafe fn bytes(&mut self, address: u64, count: Option<usize>) {
         match count {
             Some(count) if address != 0 && count <= MOST_BYTES => {
                 // SAFETY: there are so many bytes.

@@ -1,6 +1,6 @@
 //! Entry points as a program in C declares them.
 
-use std::ffi::c_void;
+use std::ffi::{c_char, c_int, c_ulong, c_void};
 
 unsafe extern "system" {
     pub fn glBegin(mode: u32);
@@ -57,4 +57,48 @@ unsafe extern "system" {
     pub fn glBufferDataARB(target: u32, size: isize, data: *const c_void, usage: u32);
     pub fn glMapBufferARB(target: u32, access: u32) -> *mut c_void;
     pub fn glUnmapBufferARB(target: u32) -> u8;
+    pub fn glXQueryVersion(display: *mut c_void, major: *mut c_int, minor: *mut c_int) -> c_int;
+    pub fn glXGetClientString(display: *mut c_void, name: c_int) -> *const c_char;
+    pub fn glXChooseVisual(display: *mut c_void, screen: c_int, list: *const c_int) -> *mut XVisualInfo;
+    pub fn glXChooseFBConfig(
+        display: *mut c_void,
+        screen: c_int,
+        list: *const c_int,
+        count: *mut c_int,
+    ) -> *mut *mut c_void;
+    pub fn glXGetFBConfigAttrib(
+        display: *mut c_void,
+        config: *const c_void,
+        attribute: c_int,
+        value: *mut c_int,
+    ) -> c_int;
+    pub fn glXCreateContext(
+        display: *mut c_void,
+        visual: *const XVisualInfo,
+        share: *mut c_void,
+        direct: c_int,
+    ) -> *mut c_void;
+    pub fn glXCreateWindow(
+        display: *mut c_void,
+        config: *const c_void,
+        window: c_ulong,
+        list: *const c_int,
+    ) -> c_ulong;
+    pub fn glXSwapBuffers(display: *mut c_void, drawable: c_ulong);
+}
+
+/// As in Xutil.h.
+#[repr(C)]
+#[derive(Default)]
+pub struct XVisualInfo {
+    pub visual: usize,
+    pub visual_id: c_ulong,
+    pub screen: c_int,
+    pub depth: c_int,
+    pub class: c_int,
+    pub red_mask: c_ulong,
+    pub green_mask: c_ulong,
+    pub blue_mask: c_ulong,
+    pub colormap_size: c_int,
+    pub bits_per_rgb: c_int,
 }

@@ -90,7 +90,8 @@ fn check_blobs(path: &Path) {
 
 /// apitrace's own reader takes the file, if there is one.
 fn check_with_apitrace(path: &Path) {
-    let Ok(output) = Command::new("apitrace").args(["dump", "--color=never"]).arg(path).output() else {
+    let Ok(output) = Command::new("apitrace").args(["dump", "--verbose", "--color=never"]).arg(path).output()
+    else {
         return;
     };
     assert!(output.status.success());

@@ -1,12 +1,10 @@
 //! Parts of a program, each with what it is recorded as.
 
 use std::ffi::c_void;
-use std::ptr::null;
+use std::ptr::{null, null_mut};
 
 use GL::record;
 use afterglow_api::constants::*;
-use afterglow_api::id;
-use record::glx::{Value, Visual};
 
 use crate::entry_points::*;
 
@@ -132,14 +130,14 @@ pub const ARRAYS_IN_MEMORY: &[&str] = &[
     "glClientActiveTexture(texture = GL_TEXTURE0)",
     "glClientActiveTexture(texture = GL_TEXTURE1) // fake",
     "glTexCoordPointer(size = 2, type = GL_FLOAT, stride = 0, pointer = blob(64)) // fake",
-    "glVertexPointer(size = 3, type = GL_FLOAT, stride = 16, pointer = blob(124)) // fake",
     "glClientActiveTexture(texture = GL_TEXTURE0) // fake",
+    "glVertexPointer(size = 3, type = GL_FLOAT, stride = 16, pointer = blob(124)) // fake",
     "glDrawElements(mode = GL_TRIANGLES, count = 3, type = GL_UNSIGNED_BYTE, indices = blob(3))",
     "glLockArraysEXT(first = 0, count = 10)",
     "glClientActiveTexture(texture = GL_TEXTURE1) // fake",
     "glTexCoordPointer(size = 2, type = GL_FLOAT, stride = 0, pointer = blob(80)) // fake",
-    "glVertexPointer(size = 3, type = GL_FLOAT, stride = 16, pointer = blob(156)) // fake",
     "glClientActiveTexture(texture = GL_TEXTURE0) // fake",
+    "glVertexPointer(size = 3, type = GL_FLOAT, stride = 16, pointer = blob(156)) // fake",
     "glMultiDrawElements(mode = GL_LINES, count = &2, type = GL_UNSIGNED_SHORT, indices = &blob(4), drawcount = 1)",
     "glUnlockArraysEXT()",
     "glBegin(mode = GL_POINTS)",
@@ -148,11 +146,11 @@ pub const ARRAYS_IN_MEMORY: &[&str] = &[
     "glEnd()",
     "glClientActiveTexture(texture = GL_TEXTURE1)",
     "glDisableClientState(array = GL_TEXTURE_COORD_ARRAY)",
-    "glDisableClientState(array = GL_EDGE_FLAG_ARRAY) // fake",
-    "glDisableClientState(array = GL_INDEX_ARRAY) // fake",
     "glDisableClientState(array = GL_SECONDARY_COLOR_ARRAY) // fake",
-    "glDisableClientState(array = GL_FOG_COORDINATE_ARRAY) // fake",
+    "glDisableClientState(array = GL_FOG_COORD_ARRAY) // fake",
+    "glDisableClientState(array = GL_EDGE_FLAG_ARRAY) // fake",
     "glDisableClientState(array = GL_TEXTURE_COORD_ARRAY) // fake",
+    "glDisableClientState(array = GL_INDEX_ARRAY) // fake",
     "glDisableClientState(array = GL_COLOR_ARRAY) // fake",
     "glEnableClientState(array = GL_NORMAL_ARRAY) // fake",
     "glEnableClientState(array = GL_VERTEX_ARRAY) // fake",
@@ -162,10 +160,13 @@ pub const ARRAYS_IN_MEMORY: &[&str] = &[
 ];
 
 pub fn buffers() {
-    // SAFETY: four bytes are mapped.
+    let vertex = [0.0f32; 3];
+    // SAFETY: there is one vertex, and four bytes are mapped.
     unsafe {
         glDisableClientState(GL_NORMAL_ARRAY);
+        glVertexPointer(3, GL_FLOAT, 0, memory(&vertex));
         glBindBufferARB(GL_ARRAY_BUFFER, 1);
+        glDrawArrays(GL_POINTS, 0, 1);
         glBufferDataARB(GL_ARRAY_BUFFER, 4, memory(&[1u8, 2, 3, 4]), GL_STATIC_DRAW);
         let mapped = glMapBufferARB(GL_ARRAY_BUFFER, GL_WRITE_ONLY);
         mapped.cast::<u8>().write(9);
@@ -179,6 +180,10 @@ pub fn buffers() {
 pub const BUFFERS: &[&str] = &[
     "glDisableClientState(array = GL_NORMAL_ARRAY)",
     "glBindBufferARB(target = GL_ARRAY_BUFFER, buffer = 1)",
+    "glBindBuffer(target = GL_ARRAY_BUFFER, buffer = 0) // fake",
+    "glVertexPointer(size = 3, type = GL_FLOAT, stride = 0, pointer = blob(12)) // fake",
+    "glBindBuffer(target = GL_ARRAY_BUFFER, buffer = 1) // fake",
+    "glDrawArrays(mode = GL_POINTS, first = 0, count = 1)",
     "glBufferDataARB(target = GL_ARRAY_BUFFER, size = 4, data = blob(4), usage = GL_STATIC_DRAW)",
     "glMapBufferARB(target = GL_ARRAY_BUFFER, access = GL_WRITE_ONLY) = ADDRESS",
     "memcpy(dest = ADDRESS, src = blob(4), n = 4) // fake",
@@ -188,28 +193,39 @@ pub const BUFFERS: &[&str] = &[
     "glUnmapBufferARB(target = GL_ARRAY_BUFFER) = GL_FALSE",
 ];
 
+/// Without a display there is nothing to be had, but all is recorded.
 pub fn window_system() {
-    let visual = Visual { visual: 0x10, visual_id: 33, depth: 24, class: 4, ..Visual::default() };
-    let (display, arguments) = (Value::Pointer(0x20), [4, 5, 8, 1, 0]);
-    let attributes = Value::VisualAttributes(Some(&arguments));
-    record::glx::call(
-        id::glXChooseVisual,
-        &[(0, display), (1, Value::Int(0)), (2, attributes)],
-        &[],
-        Some(Value::Visual(Some(&visual))),
-    );
-    let made = [(0, display), (1, Value::Id(7)), (2, Value::Pointer(0x30))];
-    record::glx::call(id::glXMakeCurrent, &made, &[], Some(Value::Bool(true)));
-    record::glx::drawable_size(64, 48);
-    record::glx::call(id::glXSwapBuffers, &[(0, display), (1, Value::Id(7))], &[], None);
+    let visual = XVisualInfo { visual: 0x10, visual_id: 33, depth: 24, class: 4, ..XVisualInfo::default() };
+    let configuration = 0x20 as *const c_void;
+    let (mut major, mut minor, mut count, mut value) = (0, 0, 5, 7);
+    // SAFETY: lists end with zero, results have their places, and the display may be null.
+    unsafe {
+        glXQueryVersion(null_mut(), &mut major, &mut minor);
+        glXGetClientString(null_mut(), GLX_VERSION);
+        glXChooseVisual(null_mut(), 0, [4, 5, 8, 1, 0].as_ptr());
+        glXChooseFBConfig(null_mut(), 0, [0x8011, 1, 5, 1, 3, -1, 0].as_ptr(), &mut count);
+        glXGetFBConfigAttrib(null_mut(), configuration, 12, &mut value);
+        glXCreateContext(null_mut(), &visual, null_mut(), 1);
+        glXCreateWindow(null_mut(), configuration, 7, null());
+        record::glx::drawable_size(64, 48);
+        glXSwapBuffers(null_mut(), 7);
+    }
 }
 
+const GLX_VERSION: i32 = 2;
+
 pub const WINDOW_SYSTEM: &[&str] = &[
-    "glXChooseVisual(dpy = 0x20, screen = 0, attribList = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 1, 0}) = \
-     &{visual = 0x10, visualid = 33, screen = 0, depth = 24, c_class = 4, red_mask = 0, green_mask = 0, \
-     blue_mask = 0, colormap_size = 0, bits_per_rgb = 0}",
-    "glXMakeCurrent(dpy = 0x20, drawable = 7, ctx = 0x30) = True",
+    "glXQueryVersion(dpy = NULL, maj = &1, min = &4) = True",
+    "glXGetClientString(dpy = NULL, name = GLX_VERSION) = \"1.4\"",
+    "glXChooseVisual(dpy = NULL, screen = 0, attribList = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 1, 0}) = NULL",
+    "glXChooseFBConfig(dpy = NULL, screen = 0, attribList = {GLX_RENDER_TYPE, GLX_RGBA_BIT, GLX_DOUBLEBUFFER, True, \
+     GLX_LEVEL, -1, 0}, nitems = &0) = NULL",
+    "glXGetFBConfigAttrib(dpy = NULL, config = 0x20, attribute = GLX_DEPTH_SIZE, value = &7) = 2",
+    "glXCreateContext(dpy = NULL, vis = &{visual = 0x10, visualid = 33, screen = 0, depth = 24, c_class = 4, \
+     red_mask = 0, green_mask = 0, blue_mask = 0, colormap_size = 0, bits_per_rgb = 0}, shareList = NULL, direct = True) \
+     = NULL",
+    "glXCreateWindow(dpy = NULL, config = 0x20, win = 7, attribList = {}) = 0",
     "glViewport(x = 0, y = 0, width = 64, height = 48) // fake",
     "glScissor(x = 0, y = 0, width = 64, height = 48) // fake",
-    "glXSwapBuffers(dpy = 0x20, drawable = 7)",
+    "glXSwapBuffers(dpy = NULL, drawable = 7)",
 ];

@@ -12,12 +12,7 @@ use crate::glx::xlib::{Display, VisualInfo};
 use crate::glx::{attributes, choose, displays};
 
 /// glXChooseVisual.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXChooseVisual(
-    display: *mut Display,
-    screen: c_int,
-    list: *const c_int,
-) -> *mut VisualInfo {
+pub unsafe fn choose_visual(display: *mut Display, screen: c_int, list: *const c_int) -> *mut VisualInfo {
     guarded(|| {
         // SAFETY: the program vouches for its display and list.
         let (known, wanted) =
@@ -38,8 +33,7 @@ fn chosen(known: &displays::OpenDisplay, config: &'static Config) -> Option<*mut
 }
 
 /// glXGetConfig. The result is an error code.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetConfig(
+pub unsafe fn get_config(
     display: *mut Display,
     visual: *const VisualInfo,
     attribute: c_int,
@@ -73,19 +67,13 @@ pub unsafe extern "C" fn glXGetConfig(
 }
 
 /// glXGetFBConfigs.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetFBConfigs(
-    display: *mut Display,
-    screen: c_int,
-    count: *mut c_int,
-) -> *mut *mut c_void {
+pub unsafe fn get_fb_configs(display: *mut Display, screen: c_int, count: *mut c_int) -> *mut *mut c_void {
     // SAFETY: the program vouches for all pointers.
     unsafe { find(display, screen, count, |table| table.iter().collect()) }
 }
 
 /// glXChooseFBConfig.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXChooseFBConfig(
+pub unsafe fn choose_fb_config(
     display: *mut Display,
     screen: c_int,
     list: *const c_int,
@@ -93,18 +81,6 @@ pub unsafe extern "C" fn glXChooseFBConfig(
 ) -> *mut *mut c_void {
     // SAFETY: the program vouches for all pointers.
     unsafe { find(display, screen, count, |table| choose::configs(table, &attributes::read(list, &[]))) }
-}
-
-/// glXChooseFBConfigSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXChooseFBConfigSGIX(
-    display: *mut Display,
-    screen: c_int,
-    list: *const c_int,
-    count: *mut c_int,
-) -> *mut *mut c_void {
-    // SAFETY: the same function.
-    unsafe { glXChooseFBConfig(display, screen, list, count) }
 }
 
 /// # Safety
@@ -125,13 +101,7 @@ unsafe fn find(
 }
 
 /// glXGetFBConfigAttrib. The result is an error code.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetFBConfigAttrib(
-    _: *mut Display,
-    config: *const c_void,
-    attribute: c_int,
-    value: *mut c_int,
-) -> c_int {
+pub unsafe fn get_fb_config_attrib(config: *const c_void, attribute: c_int, value: *mut c_int) -> c_int {
     let found = guarded(|| config::from_handle(config)).flatten();
     match found.and_then(|config| config.get(attribute as u32)) {
         Some(result) => {
@@ -143,24 +113,8 @@ pub unsafe extern "C" fn glXGetFBConfigAttrib(
     }
 }
 
-/// glXGetFBConfigAttribSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetFBConfigAttribSGIX(
-    display: *mut Display,
-    config: *const c_void,
-    attribute: c_int,
-    value: *mut c_int,
-) -> c_int {
-    // SAFETY: the same function.
-    unsafe { glXGetFBConfigAttrib(display, config, attribute, value) }
-}
-
 /// glXGetVisualFromFBConfig.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetVisualFromFBConfig(
-    display: *mut Display,
-    config: *const c_void,
-) -> *mut VisualInfo {
+pub unsafe fn get_visual_from_fb_config(display: *mut Display, config: *const c_void) -> *mut VisualInfo {
     guarded(|| {
         let config = config::from_handle(config)?;
         // SAFETY: the program vouches for its display.
@@ -171,22 +125,8 @@ pub unsafe extern "C" fn glXGetVisualFromFBConfig(
     .unwrap_or(null_mut())
 }
 
-/// glXGetVisualFromFBConfigSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetVisualFromFBConfigSGIX(
-    display: *mut Display,
-    config: *const c_void,
-) -> *mut VisualInfo {
-    // SAFETY: the same function.
-    unsafe { glXGetVisualFromFBConfig(display, config) }
-}
-
 /// glXGetFBConfigFromVisualSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetFBConfigFromVisualSGIX(
-    display: *mut Display,
-    visual: *const VisualInfo,
-) -> *mut c_void {
+pub unsafe fn get_fb_config_from_visual(display: *mut Display, visual: *const VisualInfo) -> *mut c_void {
     // SAFETY: the program vouches for both pointers.
     guarded(|| unsafe { of_visual(display, visual) }).flatten().map_or(null_mut(), Config::handle)
 }

@@ -2,9 +2,9 @@
 
 use std::ffi::{c_int, c_ulong, c_void};
 use std::ptr::null_mut;
+use std::sync::atomic::Ordering;
 
 use afterglow_api::constants::glx::*;
-use afterglow_api::id;
 
 use super::configs::of_visual;
 use super::put;
@@ -13,79 +13,38 @@ use crate::glx::attributes::{self, Attribute, value};
 use crate::glx::binding;
 use crate::glx::config::{self, Config};
 use crate::glx::contexts;
-use crate::glx::recording::{self, boolean, pointer};
 use crate::glx::xlib::{self, Display, VisualInfo, Xid};
-use crate::record::glx::Value;
+use crate::record;
 
 /// The highest version of OpenGL that there are contexts of.
 const VERSION: (i32, i32) = (1, 5);
 
 /// glXCreateContext.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreateContext(
+pub unsafe fn create_context(
     display: *mut Display,
     visual: *const VisualInfo,
     share: *mut c_void,
-    direct: c_int,
 ) -> *mut c_void {
     // SAFETY: the program vouches for display and visual.
-    let context = create(share, || unsafe { of_visual(display, visual) });
-    // SAFETY: as above.
-    unsafe {
-        recording::with_visual(visual, |visual| {
-            let arguments = [pointer(display), visual, pointer(share), boolean(direct)];
-            recording::call(id::glXCreateContext, &arguments, Some(pointer(context)));
-        });
-    }
-    context
+    create(share, || unsafe { of_visual(display, visual) })
 }
 
 /// glXCreateNewContext.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreateNewContext(
-    display: *mut Display,
-    config: *const c_void,
-    render_type: c_int,
-    share: *mut c_void,
-    direct: c_int,
-) -> *mut c_void {
-    let context =
-        create(share, || config::from_handle(config).filter(|_| render_type as u32 == GLX_RGBA_TYPE));
-    let given = [display.cast_const().cast(), config, share.cast_const()];
-    recording::new_context(id::glXCreateNewContext, given, Some(render_type), direct, context);
-    context
-}
-
-/// glXCreateContextWithConfigSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreateContextWithConfigSGIX(
-    display: *mut Display,
-    config: *const c_void,
-    render_type: c_int,
-    share: *mut c_void,
-    direct: c_int,
-) -> *mut c_void {
-    // SAFETY: the same function.
-    unsafe { glXCreateNewContext(display, config, render_type, share, direct) }
+pub fn create_new_context(config: *const c_void, render_type: c_int, share: *mut c_void) -> *mut c_void {
+    create(share, || config::from_handle(config).filter(|_| render_type as u32 == GLX_RGBA_TYPE))
 }
 
 /// glXCreateContextAttribsARB. NULL, without an X error, where the version is not ours: programs ask for less then.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreateContextAttribsARB(
-    display: *mut Display,
+pub unsafe fn create_context_attribs(
     config: *const c_void,
     share: *mut c_void,
-    direct: c_int,
     list: *const c_int,
 ) -> *mut c_void {
-    let context = create(share, || {
+    create(share, || {
         // SAFETY: the program vouches for its list.
         let wanted = unsafe { attributes::read(list, &[]) };
         config::from_handle(config).filter(|_| is_served(&wanted))
-    });
-    let given = [display.cast_const().cast(), config, share.cast_const()];
-    recording::new_context(id::glXCreateContextAttribsARB, given, None, direct, context);
-    context
+    })
 }
 
 /// Whether there are contexts with such attributes.
@@ -106,116 +65,61 @@ fn create(share: *mut c_void, config: impl FnOnce() -> Option<&'static Config>) 
 }
 
 /// glXDestroyContext.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXDestroyContext(display: *mut Display, context: *mut c_void) {
-    guarded(|| contexts::destroy(context));
-    recording::call(id::glXDestroyContext, &[pointer(display), pointer(context)], None);
-}
-
-/// glXFreeContextEXT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXFreeContextEXT(_: *mut Display, context: *mut c_void) {
+pub fn destroy_context(context: *mut c_void) {
     guarded(|| contexts::destroy(context));
 }
 
-/// glXMakeCurrent.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXMakeCurrent(display: *mut Display, drawable: Xid, context: *mut c_void) -> c_int {
+/// glXMakeCurrent and glXMakeContextCurrent.
+pub unsafe fn make_current(display: *mut Display, draw: Xid, read: Xid, context: *mut c_void) -> c_int {
     // SAFETY: the program vouches for its display.
-    let done =
-        guarded(|| unsafe { binding::make_current(display, drawable, drawable, context) }).unwrap_or(false);
-    let arguments = [pointer(display), Value::Id(drawable), pointer(context)];
-    recording::call(id::glXMakeCurrent, &arguments, Some(Value::Bool(done)));
-    recording::made_current();
-    done.into()
+    guarded(|| unsafe { binding::make_current(display, draw, read, context) }).unwrap_or(false).into()
 }
 
-/// glXMakeContextCurrent.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXMakeContextCurrent(
-    display: *mut Display,
-    draw: Xid,
-    read: Xid,
-    context: *mut c_void,
-) -> c_int {
-    // SAFETY: the program vouches for its display.
-    let done = guarded(|| unsafe { binding::make_current(display, draw, read, context) }).unwrap_or(false);
-    let arguments = [pointer(display), Value::Id(draw), Value::Id(read), pointer(context)];
-    recording::call(id::glXMakeContextCurrent, &arguments, Some(Value::Bool(done)));
-    recording::made_current();
-    done.into()
-}
-
-/// glXMakeCurrentReadSGI.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXMakeCurrentReadSGI(
-    display: *mut Display,
-    draw: Xid,
-    read: Xid,
-    context: *mut c_void,
-) -> c_int {
-    // SAFETY: the same function.
-    unsafe { glXMakeContextCurrent(display, draw, read, context) }
+/// Records the size of what is current for the first time with its context.
+pub fn record_drawable_size() {
+    if !record::is_on() {
+        return;
+    }
+    binding::with(|binding| {
+        if !binding.context.has_recorded_size.swap(true, Ordering::Relaxed) {
+            let (width, height) = binding.draw.size();
+            record::glx::drawable_size(width, height);
+        }
+    });
 }
 
 /// glXGetCurrentContext.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetCurrentContext() -> *mut c_void {
+pub fn get_current_context() -> *mut c_void {
     binding::with(|binding| std::ptr::without_provenance_mut(binding.context.handle)).unwrap_or(null_mut())
 }
 
 /// glXGetCurrentDrawable.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetCurrentDrawable() -> Xid {
+pub fn get_current_drawable() -> Xid {
     binding::with(|binding| binding.draw_id).unwrap_or(0)
 }
 
 /// glXGetCurrentReadDrawable.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetCurrentReadDrawable() -> Xid {
+pub fn get_current_read_drawable() -> Xid {
     binding::with(|binding| binding.read_id).unwrap_or(0)
 }
 
-/// glXGetCurrentReadDrawableSGI.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetCurrentReadDrawableSGI() -> Xid {
-    // SAFETY: the same function.
-    unsafe { glXGetCurrentReadDrawable() }
-}
-
 /// glXGetCurrentDisplay.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetCurrentDisplay() -> *mut Display {
+pub fn get_current_display() -> *mut Display {
     binding::with(|binding| std::ptr::with_exposed_provenance_mut(binding.display)).unwrap_or(null_mut())
 }
 
-/// glXGetCurrentDisplayEXT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetCurrentDisplayEXT() -> *mut Display {
-    // SAFETY: the same function.
-    unsafe { glXGetCurrentDisplay() }
-}
-
 /// glXIsDirect.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXIsDirect(_: *mut Display, context: *mut c_void) -> c_int {
+pub fn is_direct(context: *mut c_void) -> c_int {
     guarded(|| contexts::get(context).is_some()).unwrap_or(false).into()
 }
 
 /// glXCopyContext: not done.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCopyContext(_: *mut Display, _: *mut c_void, _: *mut c_void, mask: c_ulong) {
+pub fn copy_context(mask: c_ulong) {
     guarded(|| tracing::warn!("glXCopyContext({mask:#x}) copies nothing"));
 }
 
 /// glXQueryContext. The result is an error code.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXQueryContext(
-    _: *mut Display,
-    context: *mut c_void,
-    attribute: c_int,
-    value: *mut c_int,
-) -> c_int {
+pub unsafe fn query_context(context: *mut c_void, attribute: c_int, value: *mut c_int) -> c_int {
     let Some(context) = guarded(|| contexts::get(context)).flatten() else {
         return GLX_BAD_CONTEXT as c_int;
     };
@@ -229,27 +133,13 @@ pub unsafe extern "C" fn glXQueryContext(
     0
 }
 
-/// glXQueryContextInfoEXT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXQueryContextInfoEXT(
-    display: *mut Display,
-    context: *mut c_void,
-    attribute: c_int,
-    value: *mut c_int,
-) -> c_int {
-    // SAFETY: the same function.
-    unsafe { glXQueryContext(display, context, attribute, value) }
-}
-
 /// glXGetContextIDEXT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetContextIDEXT(context: *const c_void) -> Xid {
+pub fn context_id(context: *const c_void) -> Xid {
     context as usize as Xid
 }
 
 /// glXWaitGL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXWaitGL() {
+pub fn wait_gl() {
     guarded(|| {
         binding::with_gl(|_, gl| {
             binding::flushed(gl);
@@ -259,8 +149,7 @@ pub unsafe extern "C" fn glXWaitGL() {
 }
 
 /// glXWaitX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXWaitX() {
+pub unsafe fn wait_x() {
     guarded(|| {
         let display = binding::with(|binding| binding.display).map(std::ptr::with_exposed_provenance_mut);
         if let (Some(display), Some(xlib)) =

@@ -4,7 +4,6 @@ use std::ffi::{c_int, c_uint, c_ulong, c_void};
 use std::sync::atomic::Ordering;
 
 use afterglow_api::constants::glx::*;
-use afterglow_api::id;
 
 use super::configs::of_visual;
 use super::put;
@@ -13,39 +12,21 @@ use crate::glx::attributes::{self, value};
 use crate::glx::config::{self, Config, PBUFFER_EXTENT};
 use crate::glx::displays;
 use crate::glx::drawables::{self, Kind};
-use crate::glx::recording::{self, pointer};
 use crate::glx::xlib::{self, Display, VisualInfo, Xid};
-use crate::record::glx::Value;
 
 /// The greatest swap interval that glXQueryDrawable tells.
 const MOST_INTERVAL: c_uint = 1;
 
 /// glXCreateWindow.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreateWindow(
-    display: *mut Display,
-    config: *const c_void,
-    window: Xid,
-    _: *const c_int,
-) -> Xid {
+pub unsafe fn create_window(display: *mut Display, config: *const c_void, window: Xid) -> Xid {
     // SAFETY: the program vouches for its display.
-    let made =
-        guarded(|| unsafe { of_x(display, config::from_handle(config)?, window, Kind::Window { window }) })
-            .flatten()
-            .unwrap_or(0);
-    let arguments = [pointer(display), pointer(config), Value::Id(window), Value::Attributes(None)];
-    recording::call(id::glXCreateWindow, &arguments, Some(Value::Id(made)));
-    made
+    guarded(|| unsafe { of_x(display, config::from_handle(config)?, window, Kind::Window { window }) })
+        .flatten()
+        .unwrap_or(0)
 }
 
 /// glXCreatePixmap.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreatePixmap(
-    display: *mut Display,
-    config: *const c_void,
-    pixmap: Xid,
-    _: *const c_int,
-) -> Xid {
+pub unsafe fn create_pixmap(display: *mut Display, config: *const c_void, pixmap: Xid) -> Xid {
     // SAFETY: the program vouches for its display.
     guarded(|| unsafe { of_x(display, config::from_handle(config)?, pixmap, Kind::Pixmap) })
         .flatten()
@@ -53,27 +34,11 @@ pub unsafe extern "C" fn glXCreatePixmap(
 }
 
 /// glXCreateGLXPixmap.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreateGLXPixmap(
-    display: *mut Display,
-    visual: *const VisualInfo,
-    pixmap: Xid,
-) -> Xid {
+pub unsafe fn create_glx_pixmap(display: *mut Display, visual: *const VisualInfo, pixmap: Xid) -> Xid {
     // SAFETY: the program vouches for display and visual.
     guarded(|| unsafe { of_x(display, of_visual(display, visual)?, pixmap, Kind::Pixmap) })
         .flatten()
         .unwrap_or(0)
-}
-
-/// glXCreateGLXPixmapWithConfigSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreateGLXPixmapWithConfigSGIX(
-    display: *mut Display,
-    config: *const c_void,
-    pixmap: Xid,
-) -> Xid {
-    // SAFETY: the same function.
-    unsafe { glXCreatePixmap(display, config, pixmap, std::ptr::null()) }
 }
 
 /// A drawable for something of X.
@@ -90,12 +55,7 @@ unsafe fn of_x(display: *mut Display, config: &'static Config, id: Xid, kind: Ki
 }
 
 /// glXCreatePbuffer.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreatePbuffer(
-    display: *mut Display,
-    config: *const c_void,
-    list: *const c_int,
-) -> Xid {
+pub unsafe fn create_pbuffer(display: *mut Display, config: *const c_void, list: *const c_int) -> Xid {
     guarded(|| {
         // SAFETY: the program vouches for its list.
         let wanted = unsafe { attributes::read(list, &[]) };
@@ -109,8 +69,7 @@ pub unsafe extern "C" fn glXCreatePbuffer(
 }
 
 /// glXCreateGLXPbufferSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCreateGLXPbufferSGIX(
+pub unsafe fn create_glx_pbuffer(
     display: *mut Display,
     config: *const c_void,
     width: c_uint,
@@ -151,28 +110,13 @@ unsafe fn pbuffer(
     }
 }
 
-macro_rules! destroy {
-    ($($name:ident)*) => {$(
-        /// Takes the drawable's id away.
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $name(display: *mut Display, drawable: Xid) {
-            guarded(|| drawables::destroy(display, drawable));
-        }
-    )*};
-}
-
-destroy! {
-    glXDestroyWindow glXDestroyPixmap glXDestroyGLXPixmap glXDestroyPbuffer glXDestroyGLXPbufferSGIX
+/// glXDestroyWindow and its like: takes the drawable's id away.
+pub fn destroy_drawable(display: *mut Display, drawable: Xid) {
+    guarded(|| drawables::destroy(display, drawable));
 }
 
 /// glXQueryDrawable.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXQueryDrawable(
-    display: *mut Display,
-    drawable: Xid,
-    attribute: c_int,
-    value: *mut c_uint,
-) {
+pub unsafe fn query_drawable(display: *mut Display, drawable: Xid, attribute: c_int, value: *mut c_uint) {
     let result = guarded(|| {
         // SAFETY: the program vouches for its display.
         let found = unsafe { drawables::get_or_window(display, drawable) }?;
@@ -196,21 +140,8 @@ pub unsafe extern "C" fn glXQueryDrawable(
     }
 }
 
-/// glXQueryGLXPbufferSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXQueryGLXPbufferSGIX(
-    display: *mut Display,
-    drawable: Xid,
-    attribute: c_int,
-    value: *mut c_uint,
-) {
-    // SAFETY: the same function.
-    unsafe { glXQueryDrawable(display, drawable, attribute, value) }
-}
-
 /// glXSelectEvent. The mask is kept; contents are never lost, so there are no events.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXSelectEvent(display: *mut Display, drawable: Xid, mask: c_ulong) {
+pub unsafe fn select_event(display: *mut Display, drawable: Xid, mask: c_ulong) {
     guarded(|| {
         // SAFETY: the program vouches for its display.
         if let Some(found) = unsafe { drawables::get_or_window(display, drawable) } {
@@ -219,25 +150,10 @@ pub unsafe extern "C" fn glXSelectEvent(display: *mut Display, drawable: Xid, ma
     });
 }
 
-/// glXSelectEventSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXSelectEventSGIX(display: *mut Display, drawable: Xid, mask: c_ulong) {
-    // SAFETY: the same function.
-    unsafe { glXSelectEvent(display, drawable, mask) }
-}
-
 /// glXGetSelectedEvent.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetSelectedEvent(display: *mut Display, drawable: Xid, mask: *mut c_ulong) {
+pub unsafe fn get_selected_event(display: *mut Display, drawable: Xid, mask: *mut c_ulong) {
     let found = guarded(|| drawables::get(display, drawable)).flatten();
     let kept = found.map_or(0, |found| found.event_mask.load(Ordering::Relaxed));
     // SAFETY: the program vouches for its pointer.
     unsafe { put(mask, kept as c_ulong) };
-}
-
-/// glXGetSelectedEventSGIX.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetSelectedEventSGIX(display: *mut Display, drawable: Xid, mask: *mut c_ulong) {
-    // SAFETY: the same function.
-    unsafe { glXGetSelectedEvent(display, drawable, mask) }
 }

@@ -23,8 +23,7 @@ const UNPACKING: [(u32, i32); 6] = [
 ];
 
 /// glXUseXFont: a display list with one glBitmap for each character.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXUseXFont(font: Xid, first: c_int, count: c_int, list: c_int) {
+pub unsafe fn use_x_font(font: Xid, first: c_int, count: c_int, list: c_int) {
     let make = |binding: &Binding, gl: &mut Context| {
         let display: *mut Display = std::ptr::with_exposed_provenance_mut(binding.display);
         let Some(xlib) = xlib::get().filter(|_| !display.is_null()) else { return };

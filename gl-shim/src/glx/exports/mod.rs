@@ -1,4 +1,5 @@
-//! The entry points. Each is a thin form of what the modules beside this one do.
+//! The entry points. `table` declares all that do something; what they do is in the other modules, each a thin form of
+//! what the modules beside this one do.
 
 mod configs;
 mod contexts;
@@ -7,14 +8,10 @@ mod fonts;
 mod server;
 mod stubs;
 mod swap;
+mod table;
 
-pub use configs::*;
-pub use contexts::*;
-pub use drawables::*;
-pub use fonts::*;
-pub use server::*;
 pub use stubs::*;
-pub use swap::*;
+pub use table::*;
 
 use std::ffi::{c_int, c_void};
 

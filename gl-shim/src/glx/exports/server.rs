@@ -15,8 +15,7 @@ GLX_EXT_visual_info GLX_EXT_visual_rating GLX_MESA_swap_control GLX_SGI_make_cur
 GLX_SGIX_fbconfig GLX_SGIX_pbuffer ";
 
 /// glXQueryExtension. Error and event codes are those of the server's own GLX, if it has it.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXQueryExtension(
+pub unsafe fn query_extension(
     display: *mut Display,
     error_base: *mut c_int,
     event_base: *mut c_int,
@@ -38,8 +37,7 @@ pub unsafe extern "C" fn glXQueryExtension(
 }
 
 /// glXQueryVersion.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXQueryVersion(_: *mut Display, major: *mut c_int, minor: *mut c_int) -> c_int {
+pub unsafe fn query_version(major: *mut c_int, minor: *mut c_int) -> c_int {
     // SAFETY: the program vouches for its pointers.
     unsafe { put(major, 1) };
     // SAFETY: as above.
@@ -48,24 +46,12 @@ pub unsafe extern "C" fn glXQueryVersion(_: *mut Display, major: *mut c_int, min
 }
 
 /// glXQueryExtensionsString.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXQueryExtensionsString(_: *mut Display, _: c_int) -> *const c_char {
+pub fn query_extensions_string() -> *const c_char {
     EXTENSIONS.as_ptr()
 }
 
-/// glXGetClientString.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetClientString(_: *mut Display, name: c_int) -> *const c_char {
-    string(name)
-}
-
-/// glXQueryServerString: nothing of the server is used.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXQueryServerString(_: *mut Display, _: c_int, name: c_int) -> *const c_char {
-    string(name)
-}
-
-fn string(name: c_int) -> *const c_char {
+/// glXGetClientString and glXQueryServerString: nothing of the server is used.
+pub fn query_string(name: c_int) -> *const c_char {
     match name as u32 {
         GLX_VENDOR => c"Afterglow".as_ptr(),
         GLX_VERSION => c"1.4".as_ptr(),
@@ -75,19 +61,11 @@ fn string(name: c_int) -> *const c_char {
 }
 
 /// glXGetProcAddress.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetProcAddress(name: *const u8) -> *const c_void {
+pub unsafe fn get_proc_address(name: *const u8) -> *const c_void {
     if name.is_null() {
         return null();
     }
     // SAFETY: the program vouches for a string that ends.
     let name = unsafe { CStr::from_ptr(name.cast()) };
     guarded(|| proc_address::find(name)).flatten().unwrap_or(null())
-}
-
-/// glXGetProcAddressARB.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetProcAddressARB(name: *const u8) -> *const c_void {
-    // SAFETY: the same function.
-    unsafe { glXGetProcAddress(name) }
 }

@@ -3,24 +3,18 @@
 use std::ffi::{c_int, c_uint};
 
 use afterglow_api::constants::glx::*;
-use afterglow_api::id;
 
 use crate::boundary::guarded;
 use crate::glx::xlib::{Display, Xid};
-use crate::glx::{binding, drawables, recording};
-use crate::record::glx::Value;
+use crate::glx::{binding, drawables};
 
 /// glXSwapBuffers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXSwapBuffers(display: *mut Display, drawable: Xid) {
+pub fn swap_buffers(display: *mut Display, drawable: Xid) {
     guarded(|| binding::swap(display, drawable));
-    let arguments = [recording::pointer(display), Value::Id(drawable)];
-    recording::call(id::glXSwapBuffers, &arguments, None);
 }
 
 /// glXSwapIntervalEXT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXSwapIntervalEXT(display: *mut Display, drawable: Xid, interval: c_int) {
+pub unsafe fn swap_interval(display: *mut Display, drawable: Xid, interval: c_int) {
     if interval < 0 {
         return;
     }
@@ -33,15 +27,13 @@ pub unsafe extern "C" fn glXSwapIntervalEXT(display: *mut Display, drawable: Xid
 }
 
 /// glXSwapIntervalMESA. The result is an error code.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXSwapIntervalMESA(interval: c_uint) -> c_int {
+pub fn swap_interval_mesa(interval: c_uint) -> c_int {
     let Ok(interval) = c_int::try_from(interval) else { return GLX_BAD_VALUE as c_int };
     set_interval(interval)
 }
 
 /// glXSwapIntervalSGI. The result is an error code.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXSwapIntervalSGI(interval: c_int) -> c_int {
+pub fn swap_interval_sgi(interval: c_int) -> c_int {
     if interval <= 0 {
         return GLX_BAD_VALUE as c_int;
     }
@@ -56,7 +48,6 @@ fn set_interval(interval: c_int) -> c_int {
 }
 
 /// glXGetSwapIntervalMESA.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXGetSwapIntervalMESA() -> c_int {
+pub fn get_swap_interval() -> c_int {
     binding::with(|binding| binding.draw.interval()).unwrap_or(0)
 }

@@ -17,7 +17,7 @@ const MOST_SAMPLES: u32 = 65536;
 /// `AFTERGLOW_SPP`, `AFTERGLOW_SEED` and `AFTERGLOW_HUD`. A value that is not understood is logged and counts as absent.
 ///
 /// For tests: the device is lost at the submissions that `AFTERGLOW_DEBUG_LOSE_DEVICE` lists, counted from 1, and has
-/// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_COPY` it cannot show pictures itself.
+/// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_NO_WINDOWS` it cannot show pictures itself.
 pub fn engine() -> EngineOptions {
     from_variables(&|name| std::env::var(name).ok())
 }
@@ -42,7 +42,6 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
         mode: parsed(variable, "AFTERGLOW_MODE", mode).unwrap_or(Mode::Pathtrace),
         pathtrace,
         hud: parsed(variable, "AFTERGLOW_HUD", flag).unwrap_or(false),
-        copies: parsed(variable, "AFTERGLOW_DEBUG_COPY", flag).unwrap_or(false),
     }
 }
 
@@ -50,8 +49,13 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
 fn faults(variable: &dyn Fn(&str) -> Option<String>) -> Faults {
     let numbers = |list: &str| list.split(',').map(|number| number.trim().parse().ok()).collect();
     let losses: Option<Vec<u64>> = parsed(variable, "AFTERGLOW_DEBUG_LOSE_DEVICE", numbers);
-    let memory = parsed(variable, "AFTERGLOW_DEBUG_MEMORY", number).map(|mebibytes| u64::from(mebibytes) << 20);
-    Faults::new(&losses.unwrap_or_default(), memory)
+    let memory =
+        parsed(variable, "AFTERGLOW_DEBUG_MEMORY", number).map(|mebibytes| u64::from(mebibytes) << 20);
+    let mut faults = Faults::default();
+    faults.losses = losses.unwrap_or_default();
+    faults.memory = memory;
+    faults.no_windows = parsed(variable, "AFTERGLOW_DEBUG_NO_WINDOWS", flag).unwrap_or(false);
+    faults
 }
 
 fn parsed<T>(
@@ -131,6 +135,6 @@ mod tests {
         assert_eq!(options.mode, Mode::Raster);
         assert!(options.gpu.validation && options.gpu.device.is_none());
         assert_eq!((options.pathtrace.spp, options.pathtrace.seed), (1, 0));
-        assert!(options.hud && !options.copies);
+        assert!(options.hud && options.gpu.faults.losses.is_empty());
     }
 }

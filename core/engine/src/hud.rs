@@ -50,7 +50,11 @@ impl Line {
             for (row, bits) in glyph.iter().flat_map(|bits| [bits; STRETCH]).enumerate() {
                 let start = (MARGIN + row) * width + MARGIN + column * GLYPH;
                 let pixels = &mut greys[start..start + GLYPH];
-                pixels.iter_mut().enumerate().filter(|(x, _)| bits & (1 << x) != 0).for_each(|(_, p)| *p = INK);
+                pixels
+                    .iter_mut()
+                    .enumerate()
+                    .filter(|(x, _)| bits & (1 << x) != 0)
+                    .for_each(|(_, p)| *p = INK);
             }
         }
         Self { size: [width as u32, height as u32], greys }
@@ -77,7 +81,8 @@ mod tests {
         let mut report = FrameReport::default();
         let text = line(figures, Mode::Raster, (640, 480), &report);
         assert_eq!(text, "50.0 fps  20.0 ms  latency 12.3 ms  raster  640x480");
-        let pass = |milliseconds| afterglow_render::PassReport { name: String::new(), count: 1, milliseconds };
+        let pass =
+            |milliseconds| afterglow_render::PassReport { name: String::new(), count: 1, milliseconds };
         report.passes = vec![pass(1.5), pass(2.0)];
         assert!(line(figures, Mode::Pathtrace, (1, 1), &report).ends_with("pathtrace  1x1  device 3.5 ms"));
     }

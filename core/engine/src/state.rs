@@ -183,11 +183,7 @@ impl State {
         else {
             return;
         };
-        let wanted = Wanted {
-            waits_for_blank: drawable.swap_interval() != 0,
-            size: drawable.size(),
-            copies: self.options.copies,
-        };
+        let wanted = Wanted { waits_for_blank: drawable.swap_interval() != 0, size: drawable.size() };
         let stage = Stage { gpu, servers: &mut self.servers, renderer };
         if let Some(size) = window.present(stage, wanted) {
             drawable.set_size(size);
@@ -223,7 +219,10 @@ impl State {
     fn recover(&mut self) {
         let Some(gpu) = &self.gpu else { return };
         let is_lost = gpu.is_lost();
-        if !is_lost && !self.has_failed && self.renderers.values().all(|renderer| renderer.failure().is_none()) {
+        if !is_lost
+            && !self.has_failed
+            && self.renderers.values().all(|renderer| renderer.failure().is_none())
+        {
             return;
         }
         self.has_failed = false;

@@ -27,8 +27,6 @@ pub struct EngineOptions {
     pub pathtrace: PathtraceOptions,
     /// Show a line of figures in windows.
     pub hud: bool,
-    /// Copy pictures to windows through the window system, as where a device has no other way.
-    pub copies: bool,
 }
 
 /// Why there is no render thread.

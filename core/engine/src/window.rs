@@ -60,8 +60,6 @@ pub(crate) struct Wanted {
     pub(crate) waits_for_blank: bool,
     /// Width and height that the window has as far as is known, pixels.
     pub(crate) size: (u32, u32),
-    /// It is copied by the window system.
-    pub(crate) copies: bool,
 }
 
 impl Wanted {
@@ -107,12 +105,7 @@ impl Window {
 
     /// Takes note that a picture was shown that the program handed over at `handed_over`. With a renderer, its figures
     /// are shown in the window from the next picture on.
-    pub(crate) fn note_pace(
-        &mut self,
-        handed_over: Instant,
-        size: (u32, u32),
-        renderer: Option<&Renderer>,
-    ) {
+    pub(crate) fn note_pace(&mut self, handed_over: Instant, size: (u32, u32), renderer: Option<&Renderer>) {
         let now = Instant::now();
         if let Some(figures) = self.logged.shown(handed_over, now) {
             tracing::info!(
@@ -142,7 +135,7 @@ impl Window {
             self.output = None;
         }
         let (gpu, servers) = (stage.gpu, stage.servers);
-        let shown = match self.open(gpu, servers, (&display, window), wanted) {
+        let shown = match self.open(gpu, servers, (&display, window), wanted.waits_for_blank) {
             Ok(()) => self.show(gpu, servers, stage.renderer),
             Err(error) => Err(error),
         };
@@ -155,6 +148,10 @@ impl Window {
                 size
             }
             Err(error) if error.is_device_lost() => None,
+            Err(error) if error.is_out_of_memory() => {
+                tracing::debug!("a picture was not shown: {error}");
+                None
+            }
             Err(error) => {
                 // Programs destroy windows whose last pictures are still to be shown.
                 if servers.has_window(&display, window) {
@@ -173,27 +170,23 @@ impl Window {
         gpu: &Gpu,
         servers: &mut Servers,
         (display, window): (&str, u32),
-        wanted: Wanted,
+        waits_for_blank: bool,
     ) -> Result<(), GpuError> {
         if self.output.is_some() {
             return Ok(());
         }
-        if !wanted.copies {
-            let swapchain = servers
-                .surface(gpu, display, window)
-                .and_then(|surface| gpu.swapchain(surface, wanted.waits_for_blank));
-            match swapchain {
-                Ok(swapchain) => {
-                    self.output = Some(Output::Swapchain(swapchain));
-                    return Ok(());
-                }
-                Err(error) if error.is_device_lost() || !servers.has_window(display, window) => {
-                    return Err(error);
-                }
-                Err(error) => tracing::warn!("pictures are copied to a window, which is slow: {error}"),
+        let surface = servers.surface(gpu, display, window);
+        let output = match surface.and_then(|surface| gpu.swapchain(surface, waits_for_blank)) {
+            Ok(swapchain) => Output::Swapchain(swapchain),
+            Err(error) if error.is_device_lost() || !servers.has_window(display, window) => {
+                return Err(error);
             }
-        }
-        self.output = Some(Output::Canvas(servers.canvas(display, window)?));
+            Err(error) => {
+                tracing::warn!("pictures are copied to a window, which is slow: {error}");
+                Output::Canvas(servers.canvas(display, window)?)
+            }
+        };
+        self.output = Some(output);
         Ok(())
     }
 
@@ -207,7 +200,8 @@ impl Window {
         match &mut self.output {
             Some(Output::Swapchain(swapchain)) => {
                 if let (Some(line), None) = (&self.hud.line, &self.hud.overlay) {
-                    self.hud.overlay = Some(gpu.overlay(line.size, &line.greys)?);
+                    // Without memory for it, the picture is shown all the same.
+                    self.hud.overlay = gpu.overlay(line.size, &line.greys).ok();
                 }
                 let presented = renderer.present(swapchain, self.hud.overlay.as_ref())?;
                 let [width, height] = swapchain.size();

@@ -13,16 +13,18 @@ use crate::gpu::Gpu;
 #[derive(Debug, Clone, Default)]
 pub struct Faults {
     /// Submissions, counted from 1, that find the device lost.
-    losses: Arc<[u64]>,
+    pub losses: Vec<u64>,
     /// Bytes of memory that a device has.
-    pub(crate) memory: Option<u64>,
+    pub memory: Option<u64>,
+    /// Devices cannot show pictures in windows.
+    pub no_windows: bool,
     submissions: Arc<AtomicU64>,
 }
 
 impl Faults {
-    /// The device is lost at these submissions, counted from 1, and has so many bytes of memory.
-    pub fn new(losses: &[u64], memory: Option<u64>) -> Self {
-        Self { losses: losses.into(), memory, submissions: Arc::default() }
+    /// Whether all losses have come about.
+    pub fn all_struck(&self) -> bool {
+        self.losses.iter().all(|loss| *loss <= self.submissions.load(Ordering::Relaxed))
     }
 
     /// Counts a submission; whether it finds the device lost.
@@ -37,7 +39,7 @@ impl Faults {
 /// What is known of a device's state.
 pub(crate) struct Health {
     is_lost: AtomicBool,
-    faults: Faults,
+    pub(crate) faults: Faults,
 }
 
 impl Health {
@@ -92,8 +94,16 @@ mod tests {
     }
 
     #[test]
+    fn a_device_without_windows_says_so() {
+        let gpu = gpu(&Faults { no_windows: true, ..Faults::default() });
+        // SAFETY: the connection is not looked at.
+        let surface = unsafe { gpu.xcb_surface(std::ptr::null_mut(), 1) };
+        assert!(surface.err().unwrap().to_string().contains("cannot show pictures"));
+    }
+
+    #[test]
     fn a_lost_device_stays_lost_and_another_one_serves() {
-        let faults = Faults::new(&[2], None);
+        let faults = Faults { losses: vec![2], ..Faults::default() };
         let first = gpu(&faults);
         first.run(|_| {}).unwrap();
         assert!(!first.is_lost());
@@ -103,12 +113,12 @@ mod tests {
         drop(first);
         let second = gpu(&faults);
         (0..4).for_each(|_| second.run(|_| {}).unwrap());
-        assert!(!second.is_lost());
+        assert!(!second.is_lost() && faults.all_struck());
     }
 
     #[test]
     fn memory_ends_where_it_is_said_to() {
-        let gpu = gpu(&Faults::new(&[], Some(1 << 20)));
+        let gpu = gpu(&Faults { memory: Some(1 << 20), ..Faults::default() });
         let buffer = |bytes| gpu.create_buffer(&BufferDesc::new("test", BufferKind::Device, bytes));
         let small = buffer(512 << 10).unwrap();
         assert!(buffer(768 << 10).err().unwrap().is_out_of_memory());

@@ -59,3 +59,32 @@ impl Overlay {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{GpuOptions, ImageDesc, ImageRegion};
+
+    #[test]
+    fn what_there_is_no_room_for_is_left_out() {
+        let gpu = Gpu::new(&GpuOptions::for_tests()).unwrap();
+        let usage = vk::ImageUsageFlags::TRANSFER_DST | vk::ImageUsageFlags::TRANSFER_SRC;
+        let desc = ImageDesc::d2("picture", vk::Format::B8G8R8A8_UNORM, [3, 3], usage);
+        let picture = gpu.create_image(&desc).unwrap();
+        let overlay = gpu.overlay([4, 2], &[10, 20, 30, 40, 50, 60, 70, 80]).unwrap();
+        let write = Access::TRANSFER_WRITE;
+        gpu.run(|commands| {
+            commands.image_barrier(&picture, Access::NONE, write);
+            commands.clear_color(&picture, [0.0; 4]);
+            commands.image_barrier(&picture, write, write);
+            overlay.record(commands, picture.raw(), [3, 3]);
+        })
+        .unwrap();
+        let texels = gpu.download_image(&picture, &ImageRegion::mip(&picture, 0, 0), 4, write).unwrap();
+        let greys: Vec<u8> = texels.chunks(4).map(|texel| texel[1]).collect();
+        assert_eq!(greys, [10, 20, 30, 50, 60, 70, 0, 0, 0]);
+        assert_eq!(texels[..4], [10, 10, 10, 255]);
+        assert!(gpu.overlay([2, 2], &[0; 3]).is_err());
+        assert_eq!(gpu.validation_count(), 0, "{:?}", gpu.validation_messages());
+    }
+}

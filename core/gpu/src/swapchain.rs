@@ -64,7 +64,7 @@ enum Acquired {
 }
 
 impl Gpu {
-    /// A surface of a window of an X server.
+    /// A surface of a window of an X server. An error if the device, or its driver, knows no windows.
     ///
     /// # Safety
     /// `connection` must be an `xcb_connection_t` that outlives the surface, and no other thread may use it.
@@ -73,6 +73,13 @@ impl Gpu {
         connection: *mut c_void,
         window: u32,
     ) -> Result<WindowSurface, GpuError> {
+        let knows_windows = self.shared.instance.knows_xcb()
+            && self.shared.candidate.extensions.has(ash::khr::swapchain::NAME)
+            && !self.shared.health.faults.no_windows;
+        if !knows_windows {
+            let detail = "it cannot show pictures in windows".to_owned();
+            return Err(GpuError::Invalid { what: "device", detail });
+        }
         let functions = ash::khr::xcb_surface::Instance::new(self.entry(), self.instance());
         let info = vk::XcbSurfaceCreateInfoKHR::default().connection(connection.cast()).window(window);
         // SAFETY: the connection is alive, as the caller promises.
@@ -192,9 +199,8 @@ impl Swapchain {
         let semaphore = self.acquired[self.turn];
         let patience = if self.is_stuck { IMPATIENCE } else { PATIENCE }.as_nanos() as u64;
         // SAFETY: the swapchain is alive, and its last use of the semaphore has been waited for by a submission.
-        let result = unsafe {
-            self.functions.acquire_next_image(self.raw, patience, semaphore, vk::Fence::null())
-        };
+        let result =
+            unsafe { self.functions.acquire_next_image(self.raw, patience, semaphore, vk::Fence::null()) };
         self.is_stuck = matches!(result, Err(vk::Result::TIMEOUT | vk::Result::NOT_READY));
         match result {
             Ok((index, _)) => Ok(Acquired::Picture(index)),

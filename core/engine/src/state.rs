@@ -74,13 +74,13 @@ impl State {
                 Message::Frame { drawable, end, .. } => Some((drawable.clone(), *end)),
                 _ => None,
             };
-            let handled = catch_unwind(AssertUnwindSafe(|| {
-                self.handle(message);
-                self.recover();
-            }));
-            if handled.is_err() {
+            if catch_unwind(AssertUnwindSafe(|| self.handle(message))).is_err() {
                 tracing::error!("a bug in Afterglow: a frame was dropped");
                 self.has_failed = true;
+            }
+            if catch_unwind(AssertUnwindSafe(|| self.recover())).is_err() {
+                tracing::error!("a bug in Afterglow: nothing is drawn any more");
+                self.gpu = None;
             }
             if let Some((drawable, end)) = finished {
                 drawable.shared.queue_of(end).leave();

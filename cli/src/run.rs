@@ -29,6 +29,9 @@ pub struct Arguments {
     /// and so on
     #[arg(long, value_name = "FILE", env = "AFTERGLOW_RECORD")]
     record: Option<PathBuf>,
+    /// Show a line of figures in the window: frames a second, time of a frame, latency from buffer swap to picture
+    #[arg(long, env = "AFTERGLOW_HUD", value_parser = clap::builder::BoolishValueParser::new())]
+    hud: bool,
     #[command(flatten)]
     device: DeviceArguments,
     /// The program and its arguments
@@ -78,6 +81,9 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
         .env("AFTERGLOW_SEED", arguments.seed.to_string());
     if let Some(device) = &arguments.device.device {
         command.env("AFTERGLOW_DEVICE", device);
+    }
+    if arguments.hud {
+        command.env("AFTERGLOW_HUD", "1");
     }
     if arguments.device.validation {
         command.env("AFTERGLOW_VALIDATION", "1");

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::sync::Once;
 
 use afterglow_engine::EngineOptions;
-use afterglow_gpu::GpuOptions;
+use afterglow_gpu::{Faults, GpuOptions};
 use afterglow_render::{Mode, PathtraceOptions};
 use tracing::level_filters::LevelFilter;
 
@@ -14,7 +14,10 @@ const LIVE_SAMPLES: u32 = 1;
 const MOST_SAMPLES: u32 = 65536;
 
 /// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
-/// `AFTERGLOW_SPP` and `AFTERGLOW_SEED`. A value that is not understood is logged and counts as absent.
+/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED` and `AFTERGLOW_HUD`. A value that is not understood is logged and counts as absent.
+///
+/// For tests: the device is lost at the submissions that `AFTERGLOW_DEBUG_LOSE_DEVICE` lists, counted from 1, and has
+/// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_NO_WINDOWS` it cannot show pictures itself.
 pub fn engine() -> EngineOptions {
     from_variables(&|name| std::env::var(name).ok())
 }
@@ -33,11 +36,26 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
         gpu: GpuOptions {
             device: variable("AFTERGLOW_DEVICE").filter(|name| !name.is_empty()),
             validation: parsed(variable, "AFTERGLOW_VALIDATION", flag).unwrap_or(false),
+            faults: faults(variable),
             ..GpuOptions::default()
         },
         mode: parsed(variable, "AFTERGLOW_MODE", mode).unwrap_or(Mode::Pathtrace),
         pathtrace,
+        hud: parsed(variable, "AFTERGLOW_HUD", flag).unwrap_or(false),
     }
+}
+
+/// Failures to make up.
+fn faults(variable: &dyn Fn(&str) -> Option<String>) -> Faults {
+    let numbers = |list: &str| list.split(',').map(|number| number.trim().parse().ok()).collect();
+    let losses: Option<Vec<u64>> = parsed(variable, "AFTERGLOW_DEBUG_LOSE_DEVICE", numbers);
+    let memory =
+        parsed(variable, "AFTERGLOW_DEBUG_MEMORY", number).map(|mebibytes| u64::from(mebibytes) << 20);
+    let mut faults = Faults::default();
+    faults.losses = losses.unwrap_or_default();
+    faults.memory = memory;
+    faults.no_windows = parsed(variable, "AFTERGLOW_DEBUG_NO_WINDOWS", flag).unwrap_or(false);
+    faults
 }
 
 fn parsed<T>(
@@ -108,6 +126,8 @@ mod tests {
                 "AFTERGLOW_VALIDATION" => "Yes",
                 "AFTERGLOW_SPP" => "0",
                 "AFTERGLOW_SEED" => "minus one",
+                "AFTERGLOW_HUD" => "on",
+                "AFTERGLOW_DEBUG_LOSE_DEVICE" => "3, never",
                 _ => "",
             };
             Some(value.to_owned())
@@ -115,5 +135,6 @@ mod tests {
         assert_eq!(options.mode, Mode::Raster);
         assert!(options.gpu.validation && options.gpu.device.is_none());
         assert_eq!((options.pathtrace.spp, options.pathtrace.seed), (1, 0));
+        assert!(options.hud && options.gpu.faults.losses.is_empty());
     }
 }

@@ -94,10 +94,7 @@ fn keep_state_only(frame: &mut Frame) {
     if frame.operations.iter().any(reads) {
         return;
     }
-    frame.operations.retain(|operation| {
-        use Operation::*;
-        matches!(operation, DefineImage { .. } | Upload(_) | CopyImage { .. } | DropImage(_))
-    });
+    frame.keep_images();
 }
 
 impl Session {
@@ -133,6 +130,9 @@ impl Session {
     /// Waits for the frame.
     pub fn finish_frame(&self) -> Result<Finished, Failure> {
         let mut renderer = self.renderer.lock();
+        if let Some(error) = renderer.failure() {
+            return Err(failed(error));
+        }
         // The report first: reading back is a submission of its own.
         let rendered = renderer.frame_report().map_err(failed)?.clone();
         let pixels = renderer.read_color().map_err(failed)?;

@@ -3,12 +3,20 @@
 //! Contexts execute on the program's threads and hand their frames to a [`Port`]. One thread owns the device and
 //! everything on it; it has its own connection to the window system and never touches the program's. A drawable's
 //! queue holds two frames: a program that is faster waits at its buffer swap.
+//!
+//! Where the device is lost, the thread opens it again and counts its number up; contexts see that when they begin a
+//! frame, and define anew what images they need (`state`).
 
+mod blanks;
+mod canvas;
 mod drawable;
+mod failures;
+mod hud;
 mod life;
 mod message;
 mod pace;
 mod port;
+mod state;
 mod thread;
 mod window;
 mod xcb;

@@ -2,33 +2,43 @@
 
 use std::time::{Duration, Instant};
 
-/// How often it is logged.
-const PERIOD: Duration = Duration::from_secs(5);
-
 /// Counts pictures.
 pub(crate) struct Pace {
+    period: Duration,
     since: Instant,
     frames: u32,
     latency: Duration,
 }
 
+/// Means over a period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Figures {
+    /// Pictures a second.
+    pub(crate) rate: f64,
+    /// Milliseconds from the program's buffer swap until the picture was handed to the window system.
+    pub(crate) latency: f64,
+}
+
 impl Pace {
-    pub(crate) fn new(now: Instant) -> Self {
-        Self { since: now, frames: 0, latency: Duration::ZERO }
+    /// Figures come once a `period`.
+    pub(crate) fn new(now: Instant, period: Duration) -> Self {
+        Self { period, since: now, frames: 0, latency: Duration::ZERO }
     }
 
-    /// A picture that the program handed over at `handed_over` was shown. Once in a while, what there is to say:
-    /// pictures a second, and the mean time from the program's buffer swap to the picture in milliseconds.
-    pub(crate) fn shown(&mut self, handed_over: Instant, now: Instant) -> Option<(f64, f64)> {
+    /// A picture that the program handed over at `handed_over` was shown. Once a period, what there is to say.
+    pub(crate) fn shown(&mut self, handed_over: Instant, now: Instant) -> Option<Figures> {
         self.frames += 1;
         self.latency += now - handed_over;
         let passed = now - self.since;
-        if passed < PERIOD {
+        if passed < self.period {
             return None;
         }
         let frames = f64::from(self.frames);
-        let figures = (frames / passed.as_secs_f64(), self.latency.as_secs_f64() * 1000.0 / frames);
-        *self = Self::new(now);
+        let figures = Figures {
+            rate: frames / passed.as_secs_f64(),
+            latency: self.latency.as_secs_f64() * 1000.0 / frames,
+        };
+        *self = Self::new(now, self.period);
         Some(figures)
     }
 }
@@ -41,9 +51,9 @@ mod tests {
     fn rate_and_latency_are_means_of_a_period() {
         let start = Instant::now();
         let at = |milliseconds| start + Duration::from_millis(milliseconds);
-        let mut pace = Pace::new(start);
+        let mut pace = Pace::new(start, Duration::from_secs(5));
         assert_eq!(pace.shown(at(1000), at(1010)), None);
-        let (rate, latency) = pace.shown(at(4970), at(5000)).unwrap();
+        let Figures { rate, latency } = pace.shown(at(4970), at(5000)).unwrap();
         assert!((rate - 0.4).abs() < 1e-9 && (latency - 20.0).abs() < 1e-9);
         assert_eq!(pace.shown(at(5001), at(5002)), None);
     }

@@ -82,6 +82,11 @@ impl Port {
         (draw.shared.id != read.shared.id).then(|| read.clone())
     }
 
+    /// A frame without operations.
+    fn nothing_drawn(&self, drawable: &Drawable) -> Frame {
+        Frame { size: drawable.size(), device: self.device(), ..Frame::default() }
+    }
+
     fn ask(&self, drawable: Drawable, frame: Frame, request: Request) -> Reply {
         drawable.note_operations(&frame);
         let (reply, answer) = mpsc::sync_channel(1);
@@ -104,8 +109,8 @@ impl Backend for Port {
         match (self.other_read(), request) {
             (Some(read), Request::Pixels { .. }) => {
                 self.ask(drawable, so_far, Request::Finish);
-                let size = read.size();
-                self.ask(read, Frame { size, ..Frame::default() }, request)
+                let frame = self.nothing_drawn(&read);
+                self.ask(read, frame, request)
             }
             _ => self.ask(drawable, so_far, request),
         }
@@ -113,12 +118,16 @@ impl Backend for Port {
 
     fn wait(&mut self) {
         if let Some(drawable) = self.draw() {
-            let size = drawable.size();
-            self.ask(drawable, Frame { size, ..Frame::default() }, Request::Finish);
+            let frame = self.nothing_drawn(&drawable);
+            self.ask(drawable, frame, Request::Finish);
         }
     }
 
     fn recycle(&mut self) -> Frame {
         self.engine().recycled()
+    }
+
+    fn device(&self) -> u64 {
+        self.engine().device_number()
     }
 }

@@ -1,26 +1,20 @@
 //! The thread that owns the device.
 
-use std::collections::HashMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, mpsc};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{DeviceInfo, Gpu, GpuError, GpuOptions};
-use afterglow_render::{Mode, PathtraceOptions, RenderOptions, Renderer};
+use afterglow_render::{Mode, PathtraceOptions};
 use parking_lot::Mutex;
 
 use crate::drawable::{Drawable, Surface};
 use crate::life::{Ending, Life};
 use crate::message::Message;
 use crate::port::ShareGroup;
-use crate::window::{Wanted, Window};
+use crate::state::State;
 use crate::xcb::Servers;
-
-/// Empty frames that are kept to be filled again.
-const RECYCLED_FRAMES: usize = 4;
 
 /// How to render.
 #[derive(Debug, Clone, Default)]
@@ -31,6 +25,8 @@ pub struct EngineOptions {
     pub mode: Mode,
     /// How worlds are traced.
     pub pathtrace: PathtraceOptions,
+    /// Show a line of figures in windows.
+    pub hud: bool,
 }
 
 /// Why there is no render thread.
@@ -61,6 +57,8 @@ struct Shared {
     process: u32,
     last_id: AtomicU64,
     device: DeviceInfo,
+    /// Another one whenever all that is on the device is lost.
+    device_number: Arc<AtomicU64>,
     /// Asked for the sizes of windows by threads that draw.
     sizes: Mutex<Servers>,
 }
@@ -75,11 +73,12 @@ impl Engine {
         let (ready, is_ready) = mpsc::sync_channel(1);
         let recycled = Arc::<Mutex<Vec<Frame>>>::default();
         let life = Arc::new(Life::default());
-        let (frames, lives) = (recycled.clone(), life.clone());
+        let device_number = Arc::<AtomicU64>::default();
+        let (frames, lives, number) = (recycled.clone(), life.clone(), device_number.clone());
         std::thread::Builder::new().name("afterglow-render".into()).spawn(move || {
             let opened = Gpu::new(&options.gpu).map(|gpu| {
                 let info = gpu.info().clone();
-                (State::new(gpu, options, frames), info)
+                (State::new(gpu, options, frames, number), info)
             });
             let state = match opened {
                 Ok((state, info)) => {
@@ -102,12 +101,13 @@ impl Engine {
             process: std::process::id(),
             last_id: AtomicU64::new(0),
             device,
+            device_number,
             sizes: Mutex::default(),
         };
         Ok(Self { shared: Arc::new(shared) })
     }
 
-    /// The device.
+    /// The device that was found first.
     pub fn device(&self) -> &DeviceInfo {
         &self.shared.device
     }
@@ -148,6 +148,11 @@ impl Engine {
         }
     }
 
+    /// The number of the device that images are on now.
+    pub(crate) fn device_number(&self) -> u64 {
+        self.shared.device_number.load(Ordering::Acquire)
+    }
+
     fn next_id(&self) -> u64 {
         self.shared.last_id.fetch_add(1, Ordering::Relaxed) + 1
     }
@@ -166,143 +171,5 @@ impl Engine {
             return Frame::default();
         }
         self.shared.recycled.lock().pop().unwrap_or_default()
-    }
-}
-
-/// Everything that the thread owns.
-struct State {
-    gpu: Gpu,
-    options: EngineOptions,
-    recycled: Arc<Mutex<Vec<Frame>>>,
-    /// By share group.
-    renderers: HashMap<u64, Renderer>,
-    /// By drawable.
-    windows: HashMap<u64, Window>,
-    /// Dropped after all windows.
-    servers: Servers,
-}
-
-impl State {
-    fn new(gpu: Gpu, options: EngineOptions, recycled: Arc<Mutex<Vec<Frame>>>) -> Self {
-        Self {
-            gpu,
-            options,
-            recycled,
-            renderers: HashMap::new(),
-            windows: HashMap::new(),
-            servers: Servers::default(),
-        }
-    }
-
-    /// Handles messages until nobody can send any more, or the thread is not wanted.
-    fn run(mut self, messages: &mpsc::Receiver<Message>, ending: &Ending) {
-        while let Ok(message) = messages.recv()
-            && ending.is_wanted()
-        {
-            let (group, finished) = match &message {
-                Message::Frame { group, drawable, end, .. } => (Some(*group), Some((drawable.clone(), *end))),
-                Message::Ask { group, .. } => (Some(*group), None),
-                _ => (None, None),
-            };
-            if catch_unwind(AssertUnwindSafe(|| self.handle(message))).is_err() {
-                tracing::error!("a bug in Afterglow: a frame was dropped");
-                // Whatever state it is in, it is not to be trusted.
-                group.map(|group| self.renderers.remove(&group));
-            }
-            if let Some((drawable, end)) = finished {
-                drawable.shared.queue_of(end).leave();
-            }
-        }
-    }
-
-    fn handle(&mut self, message: Message) {
-        match message {
-            Message::Drawable { drawable, surface } => {
-                self.windows.insert(drawable, Window::new(surface));
-            }
-            Message::DropDrawable { drawable } => {
-                self.windows.remove(&drawable);
-                self.renderers.values_mut().for_each(|renderer| renderer.forget(drawable));
-            }
-            Message::DropGroup { group } => drop(self.renderers.remove(&group)),
-            Message::Frame { group, drawable, frame, end, handed_over } => {
-                self.frame(group, &drawable, frame, end);
-                if end == End::Swap {
-                    self.present(&drawable);
-                    self.note_pace(&drawable, handed_over);
-                }
-            }
-            Message::Ask { group, drawable, frame, request, reply } => {
-                let _ = reply.send(self.answer(group, &drawable, frame, request));
-            }
-            Message::Present { drawable } => self.present(&drawable),
-            Message::Stop => {}
-        }
-    }
-
-    fn frame(&mut self, group: u64, drawable: &Drawable, frame: Frame, end: End) {
-        let id = drawable.shared.id;
-        if let Some(renderer) = self.renderer(group, id) {
-            renderer.submit(frame, end);
-            let empty = renderer.recycle();
-            let mut recycled = self.recycled.lock();
-            if recycled.len() < RECYCLED_FRAMES {
-                recycled.push(empty);
-            }
-        }
-    }
-
-    fn note_pace(&mut self, drawable: &Drawable, handed_over: Instant) {
-        let Some(window) = self.windows.get_mut(&drawable.shared.id) else { return };
-        if let Some((rate, latency)) = window.pace.shown(handed_over, Instant::now()) {
-            let (width, height) = drawable.size();
-            tracing::info!(
-                "{rate:.1} frames a second at {width}x{height}, {latency:.1} ms after the buffer swap"
-            );
-        }
-    }
-
-    fn answer(&mut self, group: u64, drawable: &Drawable, frame: Frame, request: Request) -> Reply {
-        match self.renderer(group, drawable.shared.id) {
-            Some(renderer) => renderer.answer(frame, request),
-            None => Reply::Unavailable,
-        }
-    }
-
-    /// The renderer of a share group, with a drawable selected.
-    fn renderer(&mut self, group: u64, drawable: u64) -> Option<&mut Renderer> {
-        if !self.renderers.contains_key(&group) {
-            let made = self.make_renderer().map_err(|error| tracing::error!("no renderer: {error}")).ok()?;
-            self.renderers.insert(group, made);
-        }
-        let renderer = self.renderers.get_mut(&group)?;
-        renderer.select(drawable).map_err(|error| tracing::error!("no drawable: {error}")).ok()?;
-        if let Some(window) = self.windows.get_mut(&drawable) {
-            window.group = Some(group);
-        }
-        Some(renderer)
-    }
-
-    /// Shows what was drawn to a drawable last.
-    fn present(&mut self, drawable: &Drawable) {
-        let id = drawable.shared.id;
-        let Some(group) = self.windows.get(&id).and_then(|window| window.group) else { return };
-        if self.renderer(group, id).is_none() {
-            return;
-        }
-        let (Some(window), Some(renderer)) = (self.windows.get_mut(&id), self.renderers.get_mut(&group))
-        else {
-            return;
-        };
-        let wanted = Wanted { waits_for_blank: drawable.swap_interval() != 0, size: drawable.size() };
-        if let Some(size) = window.present(&self.gpu, &mut self.servers, renderer, wanted) {
-            drawable.set_size(size);
-        }
-    }
-
-    fn make_renderer(&self) -> Result<Renderer, afterglow_render::RenderError> {
-        let mut renderer = Renderer::new(&self.gpu, &RenderOptions::default())?;
-        renderer.set_mode(self.options.mode, &self.options.pathtrace)?;
-        Ok(renderer)
     }
 }

@@ -35,7 +35,7 @@ impl Servers {
         Some((answer.width.into(), answer.height.into()))
     }
 
-    fn connection(&mut self, display: &str) -> Result<&XCBConnection, String> {
+    pub(crate) fn connection(&mut self, display: &str) -> Result<&XCBConnection, String> {
         if !self.connections.contains_key(display) {
             self.connections.insert(display.to_owned(), connect(display)?);
         }

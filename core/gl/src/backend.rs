@@ -67,6 +67,12 @@ pub trait Backend: Send {
     fn recycle(&mut self) -> Frame {
         Frame::default()
     }
+
+    /// The number of the device that images are on. It changes when the device was lost with all of them: a context
+    /// then defines anew what it needs.
+    fn device(&self) -> u64 {
+        0
+    }
 }
 
 /// Executes nothing, and gives frames back at once as an infinitely fast device would: what is left is the cost of a

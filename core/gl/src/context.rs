@@ -36,6 +36,8 @@ pub struct Context {
     pub(crate) error: u32,
     pub(crate) size: Option<(u32, u32)>,
     pub(crate) frame: Frame,
+    /// The device that images are on.
+    pub(crate) device: u64,
     pub(crate) emitter: Emitter,
     pub(crate) state: State,
     pub(crate) matrices: Matrices,
@@ -66,12 +68,14 @@ impl Context {
     /// A context in its initial state that shares names with all others of the same `shared`.
     pub fn new(backend: Box<dyn Backend>, shared: SharedNames) -> Context {
         let textures = Textures::new(&shared);
-        Context {
+        let device = backend.device();
+        let mut context = Context {
             backend,
             shared,
             error: GL_NO_ERROR,
             size: None,
-            frame: Frame::default(),
+            frame: Frame { device, ..Frame::default() },
+            device,
             emitter: Emitter::default(),
             state: State::default(),
             matrices: Matrices::default(),
@@ -87,7 +91,9 @@ impl Context {
             mode: RenderMode::default(),
             ranges: RangeCache::default(),
             scratch: Scratch::default(),
-        }
+        };
+        context.leave_images();
+        context
     }
 
     /// The names that this context shares.
@@ -183,13 +189,26 @@ impl Context {
         let next = self.next_frame();
         let frame = std::mem::replace(&mut self.frame, next);
         self.backend.submit(frame, end);
+        self.follow_device();
     }
 
     /// Asks the backend about the operations so far; the frame goes on.
     pub(crate) fn ask(&mut self, request: Request) -> Reply {
         let next = self.next_frame();
         let frame = std::mem::replace(&mut self.frame, next);
-        self.backend.answer(frame, request)
+        let reply = self.backend.answer(frame, request);
+        self.follow_device();
+        reply
+    }
+
+    /// Takes note, as a frame begins, if images are on another device now.
+    fn follow_device(&mut self) {
+        let device = self.backend.device();
+        self.frame.device = device;
+        if device != self.device {
+            self.device = device;
+            self.leave_images();
+        }
     }
 
     fn next_frame(&mut self) -> Frame {

@@ -23,6 +23,8 @@ pub struct Names {
     pub textures: HashMap<u32, Option<SharedTexture>>,
     /// Buffers, likewise.
     pub buffers: HashMap<u32, Option<SharedBuffer>>,
+    /// The device that the textures' images are on.
+    device: u64,
     last_list: u32,
     last_texture: u32,
     last_buffer: u32,
@@ -51,6 +53,14 @@ impl Names {
     /// `n` texture names that were not in use.
     pub fn generate_textures(&mut self, n: usize) -> Vec<u32> {
         generate(&mut self.textures, &mut self.last_texture, n)
+    }
+
+    /// Textures that are to leave their images, which were on another device.
+    pub fn move_to(&mut self, device: u64) -> Vec<SharedTexture> {
+        match std::mem::replace(&mut self.device, device) == device {
+            true => Vec::new(),
+            false => self.textures.values().flatten().cloned().collect(),
+        }
     }
 
     /// `n` buffer names that were not in use.

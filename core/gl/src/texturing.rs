@@ -47,6 +47,21 @@ impl Textures {
 }
 
 impl Context {
+    /// Leaves the images of textures that are on a device which is lost. They are defined anew when they are drawn;
+    /// texels that were only there are zero.
+    pub(crate) fn leave_images(&mut self) {
+        let (named, own) = {
+            let mut names = self.shared.lock();
+            let bound = self.textures.bound.iter().flatten();
+            let is_own = |(name, _): &&(u32, SharedTexture)| !names.textures.contains_key(name);
+            let own: Vec<_> = bound.filter(is_own).map(|(_, texture)| texture.clone()).collect();
+            (names.move_to(self.device), own)
+        };
+        for texture in named.iter().chain(&own).chain(&self.textures.defaults) {
+            texture.lock().drop_image(&mut self.frame.operations);
+        }
+    }
+
     pub(crate) fn exec_active_texture(&mut self, unit: u32) {
         match unit.wrapping_sub(GL_TEXTURE0) as usize {
             unit if unit < TEXTURE_UNITS => self.state.texture.active = unit,

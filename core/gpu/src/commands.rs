@@ -83,7 +83,7 @@ impl Gpu {
             (slot.buffer, slot.pool, slot.submission)
         };
         let device = &self.shared.device;
-        self.shared.timeline.wait(device, last)?;
+        self.shared.health.guard(|| self.shared.timeline.wait(device, last))?;
         self.collect()?;
         let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
         // SAFETY: the pool's only buffer is not in use: the device has finished its last submission.
@@ -117,13 +117,14 @@ impl Gpu {
 
     /// Waits until the device has finished `submission`.
     pub fn wait(&self, submission: Submission) -> Result<(), GpuError> {
-        self.shared.timeline.wait(&self.shared.device, submission.0)?;
+        let shared = &self.shared;
+        shared.health.guard(|| shared.timeline.wait(&shared.device, submission.0))?;
         self.collect()
     }
 
     /// Whether the device has finished `submission`.
     pub fn is_finished(&self, submission: Submission) -> Result<bool, GpuError> {
-        Ok(self.shared.timeline.completed(&self.shared.device)? >= submission.0)
+        Ok(self.shared.completed()? >= submission.0)
     }
 
     /// Waits for everything that was submitted.
@@ -133,7 +134,7 @@ impl Gpu {
 
     /// Destroys what was dropped and is no longer in use. Recording and waiting do this by themselves.
     pub fn collect(&self) -> Result<(), GpuError> {
-        let completed = self.shared.timeline.completed(&self.shared.device)?;
+        let completed = self.shared.completed()?;
         self.shared.garbage.collect(&self.shared, completed);
         Ok(())
     }
@@ -210,13 +211,18 @@ impl Shared {
     fn queue_submit(&self, submits: &[vk::SubmitInfo2<'_>]) -> Result<(), GpuError> {
         let queue = self.queue.lock();
         // SAFETY: the queue is locked, and what is submitted was recorded to the end.
-        unsafe {
+        self.health.guard_submission(|| unsafe {
             match &self.synchronization2 {
                 Some(functions) => functions.queue_submit2(*queue, submits, vk::Fence::null()),
                 None => self.device.queue_submit2(*queue, submits, vk::Fence::null()),
             }
-        }
-        .doing("submit commands")
+            .doing("submit commands")
+        })
+    }
+
+    /// The value of the last submission that the device has finished.
+    fn completed(&self) -> Result<u64, GpuError> {
+        self.health.guard(|| self.timeline.completed(&self.device))
     }
 }
 

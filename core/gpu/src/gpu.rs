@@ -11,6 +11,7 @@ use crate::device::{self, Candidate, DeviceInfo, DeviceKind};
 use crate::error::{Doing, GpuError, Refusal};
 use crate::features::{self, Features};
 use crate::garbage::Garbage;
+use crate::health::{Faults, Health};
 use crate::instance::{Drivers, Instance, InstanceOptions, Loader, OPENING_AND_CLOSING};
 use crate::lavapipe::{self, PrivateLavapipe};
 use crate::memory::Memory;
@@ -30,6 +31,8 @@ pub struct GpuOptions {
     pub loader: Option<PathBuf>,
     /// The folder that holds the private lavapipe and compiled pipelines; nothing is looked for or kept if absent.
     pub cache_folder: Option<PathBuf>,
+    /// Failures to make up, for tests.
+    pub faults: Faults,
 }
 
 impl Default for GpuOptions {
@@ -40,6 +43,7 @@ impl Default for GpuOptions {
             synchronization_validation: true,
             loader: None,
             cache_folder: lavapipe::cache_folder(),
+            faults: Faults::default(),
         }
     }
 }
@@ -80,6 +84,7 @@ pub(crate) struct Shared {
     pub(crate) queue: Mutex<vk::Queue>,
     pub(crate) memory: Memory,
     pub(crate) timeline: Timeline,
+    pub(crate) health: Health,
     pub(crate) garbage: Garbage,
     pub(crate) recorder: Recorder,
     pub(crate) pipeline_cache: PipelineCache,
@@ -303,6 +308,7 @@ fn open(instance: Instance, candidate: Candidate, options: &GpuOptions) -> Resul
             queue: Mutex::new(queue),
             memory: parts.memory,
             timeline: parts.timeline,
+            health: Health::new(options.faults.clone()),
             garbage: Garbage::default(),
             recorder: parts.recorder,
             pipeline_cache: parts.pipeline_cache,
@@ -330,7 +336,7 @@ impl Parts {
     ) -> Result<Self, GpuError> {
         let cache_folder = options.cache_folder.as_deref();
         Ok(Self {
-            memory: Memory::new(&instance.raw, device, candidate.physical)?,
+            memory: Memory::new(&instance.raw, device, candidate.physical, options.faults.memory)?,
             timeline: Timeline::new(device)?,
             recorder: Recorder::new(device, candidate.queue_family)?,
             pipeline_cache: PipelineCache::open(device, &candidate.properties, cache_folder)?,

@@ -158,6 +158,11 @@ impl Instance {
         Ok(instance)
     }
 
+    /// Whether an X server's windows can be drawn to, if the device can.
+    pub(crate) fn knows_xcb(&self) -> bool {
+        self.has_surface() && self.loader.extensions.has(ash::khr::xcb_surface::NAME)
+    }
+
     /// Whether windows can be drawn to, if the device can.
     pub(crate) fn has_surface(&self) -> bool {
         self.loader.extensions.has(ash::khr::surface::NAME)
@@ -307,6 +312,8 @@ mod tests {
     /// Both ways of giving the loader the private lavapipe and nothing else.
     #[test]
     fn the_private_lavapipe_is_the_only_device() {
+        // The environment is changed while an instance is made.
+        let _alone = OPENING_AND_CLOSING.lock();
         // Not unpacked where the system's own is recent enough.
         let Some(lavapipe) = PrivateLavapipe::find() else {
             return;

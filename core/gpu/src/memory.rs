@@ -16,6 +16,8 @@ use crate::gpu::{Gpu, Shared};
 pub(crate) struct Memory {
     /// `None` only once the device is being destroyed.
     allocator: Mutex<Option<Allocator>>,
+    /// Bytes that resources may have together, where a shortage is made up.
+    most: Option<u64>,
 }
 
 /// A piece of memory to ask for.
@@ -32,6 +34,7 @@ impl Memory {
         instance: &ash::Instance,
         device: &ash::Device,
         physical: vk::PhysicalDevice,
+        most: Option<u64>,
     ) -> Result<Self, GpuError> {
         let allocator = Allocator::new(&AllocatorCreateDesc {
             instance: instance.clone(),
@@ -46,7 +49,7 @@ impl Memory {
             bytes: 0,
             source,
         })?;
-        Ok(Self { allocator: Mutex::new(Some(allocator)) })
+        Ok(Self { allocator: Mutex::new(Some(allocator)), most })
     }
 
     pub(crate) fn allocate(&self, request: &MemoryRequest<'_>) -> Result<Allocation, GpuError> {
@@ -60,6 +63,7 @@ impl Memory {
         self.allocator
             .lock()
             .as_mut()
+            .filter(|allocator| self.has_room(allocator, request.requirements.size))
             .map_or(Err(gpu_allocator::AllocationError::OutOfMemory), |allocator| {
                 allocator.allocate(&description)
             })
@@ -68,6 +72,11 @@ impl Memory {
                 bytes: request.requirements.size,
                 source,
             })
+    }
+
+    /// Whether so many more bytes are allowed.
+    fn has_room(&self, allocator: &Allocator, bytes: u64) -> bool {
+        self.most.is_none_or(|most| allocator.generate_report().total_allocated_bytes + bytes <= most)
     }
 
     pub(crate) fn free(&self, allocation: Allocation) {

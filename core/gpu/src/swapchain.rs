@@ -2,6 +2,7 @@
 
 use std::ffi::c_void;
 use std::sync::Arc;
+use std::time::Duration;
 
 use ash::vk;
 
@@ -10,9 +11,14 @@ use crate::commands::Submission;
 use crate::error::{Doing, GpuError};
 use crate::gpu::{Gpu, Shared};
 use crate::image::Image;
+use crate::overlay::Overlay;
 
 /// Pictures of a swapchain that are asked for: one on the screen, one waiting, one being made.
 const WANTED_IMAGES: u32 = 3;
+/// How long one of them is waited for. Longer than a slow device takes for a frame.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// How long once that was in vain: nobody looks at the window, and the program should not stand still.
+const IMPATIENCE: Duration = Duration::from_millis(50);
 
 /// A window that pictures can be shown in.
 pub struct WindowSurface {
@@ -33,6 +39,8 @@ pub struct Swapchain {
     /// Signalled when a picture was written, by picture.
     written: Vec<vk::Semaphore>,
     turn: usize,
+    /// The last picture was waited for in vain.
+    is_stuck: bool,
 }
 
 /// What became of a picture.
@@ -40,12 +48,23 @@ pub struct Swapchain {
 pub enum Presented {
     /// It is shown, or will be.
     Shown,
-    /// The window has no area now (it is minimised): there is nothing to show it in.
+    /// The window has no area now (it is minimised), or the window system keeps all its pictures: there is nothing to
+    /// show it in.
     Hidden,
 }
 
+/// The next picture to write to.
+enum Acquired {
+    /// The one of this number.
+    Picture(u32),
+    /// The window is no longer what it was.
+    Outdated,
+    /// None came in time.
+    None,
+}
+
 impl Gpu {
-    /// A surface of a window of an X server.
+    /// A surface of a window of an X server. An error if the device, or its driver, knows no windows.
     ///
     /// # Safety
     /// `connection` must be an `xcb_connection_t` that outlives the surface, and no other thread may use it.
@@ -54,6 +73,13 @@ impl Gpu {
         connection: *mut c_void,
         window: u32,
     ) -> Result<WindowSurface, GpuError> {
+        let knows_windows = self.shared.instance.knows_xcb()
+            && self.shared.candidate.extensions.has(ash::khr::swapchain::NAME)
+            && !self.shared.health.faults.no_windows;
+        if !knows_windows {
+            let detail = "it cannot show pictures in windows".to_owned();
+            return Err(GpuError::Invalid { what: "device", detail });
+        }
         let functions = ash::khr::xcb_surface::Instance::new(self.entry(), self.instance());
         let info = vk::XcbSurfaceCreateInfoKHR::default().connection(connection.cast()).window(window);
         // SAFETY: the connection is alive, as the caller promises.
@@ -98,6 +124,7 @@ impl Gpu {
             acquired: Vec::new(),
             written: Vec::new(),
             turn: 0,
+            is_stuck: false,
         };
         swapchain.make(self)?;
         Ok(swapchain)
@@ -131,9 +158,16 @@ impl Swapchain {
         self.waits_for_blank
     }
 
-    /// Shows an image in the window: its upper left corner in the window's, without scaling. `state` says how the
-    /// last commands left it, and then how it is left: as it was, or to be read by transfers.
-    pub fn present(&mut self, gpu: &Gpu, image: &Image, state: &mut Access) -> Result<Presented, GpuError> {
+    /// Shows an image in the window: its upper left corner in the window's, without scaling, and `overlay` over it.
+    /// `state` says how the last commands left the image, and then how it is left: as it was, or to be read by
+    /// transfers.
+    pub fn present(
+        &mut self,
+        gpu: &Gpu,
+        image: &Image,
+        state: &mut Access,
+        overlay: Option<&Overlay>,
+    ) -> Result<Presented, GpuError> {
         // A window that changes while it is drawn to may fail a few times in a row.
         for _ in 0..4 {
             if self.raw == vk::SwapchainKHR::null() {
@@ -142,37 +176,48 @@ impl Swapchain {
                     return Ok(Presented::Hidden);
                 }
             }
-            let Some(index) = self.acquire()? else {
-                self.unmake(gpu)?;
-                continue;
+            let index = match gpu.shared.health.guard(|| self.acquire())? {
+                Acquired::Picture(index) => index,
+                Acquired::Outdated => {
+                    self.unmake(gpu)?;
+                    continue;
+                }
+                Acquired::None => return Ok(Presented::Hidden),
             };
-            self.copy(gpu, index, image, *state)?;
+            self.copy(gpu, index, image, *state, overlay)?;
             *state = Access::TRANSFER_READ;
-            if self.show(gpu, index)? {
-                return Ok(Presented::Shown);
+            if !gpu.shared.health.guard(|| self.show(gpu, index))? {
+                self.unmake(gpu)?;
             }
-            self.unmake(gpu)?;
             return Ok(Presented::Shown);
         }
         Ok(Presented::Hidden)
     }
 
-    /// The next picture to write to; `None` if the window is no longer what it was.
-    fn acquire(&mut self) -> Result<Option<u32>, GpuError> {
+    fn acquire(&mut self) -> Result<Acquired, GpuError> {
         self.turn = (self.turn + 1) % self.acquired.len();
         let semaphore = self.acquired[self.turn];
+        let patience = if self.is_stuck { IMPATIENCE } else { PATIENCE }.as_nanos() as u64;
         // SAFETY: the swapchain is alive, and its last use of the semaphore has been waited for by a submission.
-        let result = unsafe {
-            self.functions.acquire_next_image(self.raw, 1_000_000_000, semaphore, vk::Fence::null())
-        };
+        let result =
+            unsafe { self.functions.acquire_next_image(self.raw, patience, semaphore, vk::Fence::null()) };
+        self.is_stuck = matches!(result, Err(vk::Result::TIMEOUT | vk::Result::NOT_READY));
         match result {
-            Ok((index, _)) => Ok(Some(index)),
-            Err(vk::Result::ERROR_OUT_OF_DATE_KHR | vk::Result::TIMEOUT | vk::Result::NOT_READY) => Ok(None),
+            Ok((index, _)) => Ok(Acquired::Picture(index)),
+            Err(vk::Result::ERROR_OUT_OF_DATE_KHR) => Ok(Acquired::Outdated),
+            Err(vk::Result::TIMEOUT | vk::Result::NOT_READY) => Ok(Acquired::None),
             Err(error) => Err(error).doing("get a picture of a window"),
         }
     }
 
-    fn copy(&self, gpu: &Gpu, index: u32, image: &Image, before: Access) -> Result<Submission, GpuError> {
+    fn copy(
+        &self,
+        gpu: &Gpu,
+        index: u32,
+        image: &Image,
+        before: Access,
+        overlay: Option<&Overlay>,
+    ) -> Result<Submission, GpuError> {
         let target = self.images[index as usize];
         let range = image.whole_range();
         let [width, height, _] = image.extent();
@@ -209,6 +254,10 @@ impl Swapchain {
                 &[region],
                 vk::Filter::NEAREST,
             );
+        }
+        if let Some(overlay) = overlay {
+            recording.barriers(&[], &[image_barrier_of(target, range, write, write)]);
+            overlay.record(&recording, target, self.size());
         }
         recording.barriers(&[], &[image_barrier_of(target, range, write, Access::PRESENT)]);
         let semaphore = |semaphore| {

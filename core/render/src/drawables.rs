@@ -1,6 +1,6 @@
 //! Several drawables of one renderer: one is selected, the others wait.
 
-use afterglow_gpu::{GpuError, Presented, Swapchain};
+use afterglow_gpu::{GpuError, Overlay, Presented, Swapchain};
 
 use crate::error::RenderError;
 use crate::graph::last_use;
@@ -59,24 +59,33 @@ impl Renderer {
         }
     }
 
-    /// Shows the selected drawable in a window.
+    /// Shows the selected drawable in a window, with `overlay` over it.
     ///
     /// # Errors
     /// If the device fails, or the window is gone.
-    pub fn present(&mut self, swapchain: &mut Swapchain) -> Result<Presented, GpuError> {
+    pub fn present(
+        &mut self,
+        swapchain: &mut Swapchain,
+        overlay: Option<&Overlay>,
+    ) -> Result<Presented, GpuError> {
         use afterglow_frame_graph::{Access, ResourceState};
         let before = last_use(self.target.color_state);
         let mut state = before;
-        let presented = swapchain.present(&self.gpu, &self.target.color, &mut state);
+        let presented = swapchain.present(&self.gpu, &self.target.color, &mut state, overlay);
         if state != before {
             self.target.color_state = ResourceState::after(Access::TransferSrc);
         }
         presented
     }
 
-    fn new_seat(&self) -> Result<Seat, RenderError> {
-        let tracer = match &self.tracer {
-            Some(tracer) => Tracer::new(&self.gpu, &self.table, tracer.options.clone())?,
+    fn new_seat(&mut self) -> Result<Seat, RenderError> {
+        let options = self.tracer.as_ref().map(|tracer| tracer.options.clone());
+        let tracer = match options.map(|options| Tracer::new(&self.gpu, &self.table, options)) {
+            Some(Err(error)) if error.is_out_of_memory() => {
+                self.trace_no_more(&error.into());
+                None
+            }
+            Some(made) => made?,
             None => None,
         };
         Ok(Seat {

@@ -18,7 +18,12 @@ pub enum RenderError {
 
 impl RenderError {
     /// Whether the device would have served with more memory.
-    pub(crate) fn is_out_of_memory(&self) -> bool {
+    pub fn is_out_of_memory(&self) -> bool {
         matches!(self, Self::Gpu(error) if error.is_out_of_memory())
+    }
+
+    /// Whether the device was lost: nothing that was created from it works any more.
+    pub fn is_device_lost(&self) -> bool {
+        matches!(self, Self::Gpu(error) if error.is_device_lost())
     }
 }

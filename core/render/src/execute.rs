@@ -108,7 +108,7 @@ impl Renderer {
         let flip = |batch| copy::prepare(batch, &self.store, arena);
         let flips = plan.batches.iter().map(flip).collect::<Result<_, _>>()?;
         let traced = match tracing {
-            Some(tracing) => self.prepare_trace(frame, address, tracing)?,
+            Some(tracing) => self.try_trace(frame, address, tracing)?,
             None => None,
         };
         let views = match (&self.tracer, &traced) {
@@ -132,6 +132,22 @@ impl Renderer {
         let schedule = schedule(&plan, frame, &self.target, &lasting, has_first, question, views.as_ref())?;
         let readback = question.map(|question| Readback::new(&self.gpu, *question));
         Ok(Prepared { plan, schedule, address, range_copies, flips, readback: readback.transpose()?, traced })
+    }
+
+    /// As [`prepare_trace`](Self::prepare_trace). Where there is not enough memory, this frame is rasterized already.
+    fn try_trace(
+        &mut self,
+        frame: &Frame,
+        address: u64,
+        tracing: &Tracing,
+    ) -> Result<Option<PreparedTrace>, GpuError> {
+        match self.prepare_trace(frame, address, tracing) {
+            Err(error) if error.is_out_of_memory() => {
+                self.trace_no_more(&error.into());
+                Ok(None)
+            }
+            other => other,
+        }
     }
 
     /// Makes what the passes of a frame's views read.

@@ -93,7 +93,13 @@ impl Renderer {
             Some(held) => held,
             None => {
                 self.resize(part)?;
-                self.keep_window()?;
+                match self.keep_window() {
+                    Err(error) if error.is_out_of_memory() => {
+                        self.trace_no_more(&error);
+                        return self.execute(part);
+                    }
+                    kept => kept?,
+                }
                 Box::new(Held { frame: Frame::default() })
             }
         };

@@ -62,7 +62,7 @@ pub struct Renderer {
     /// The other drawables.
     pub(crate) seats: HashMap<u64, Seat>,
     recycled: Vec<Frame>,
-    has_failed: bool,
+    failure: Option<RenderError>,
     /// Dropped last of all: slots of the table are given back to it.
     pub(crate) table: BindlessTable,
 }
@@ -93,7 +93,7 @@ impl Renderer {
             drawable: 0,
             seats: HashMap::new(),
             recycled: Vec::new(),
-            has_failed: false,
+            failure: None,
             table,
         })
     }
@@ -207,9 +207,15 @@ impl Renderer {
         Ok(&self.report)
     }
 
-    /// Whether the device has failed; then nothing is executed any more.
-    pub fn has_failed(&self) -> bool {
-        self.has_failed
+    /// What was measured of the last frame that the device is known to have finished. Waits for nothing.
+    pub fn last_report(&self) -> &FrameReport {
+        &self.report
+    }
+
+    /// Why nothing is executed any more, if a frame that was submitted has failed. Another renderer may serve, with
+    /// all images defined anew.
+    pub fn failure(&self) -> Option<&RenderError> {
+        self.failure.as_ref()
     }
 
     /// Waits for the frame that uses a slot.
@@ -240,6 +246,12 @@ impl Renderer {
         self.recycle_frame(frame);
     }
 
+    /// Rasterizes from now on: there is not enough memory to trace.
+    pub(crate) fn trace_no_more(&mut self, error: &RenderError) {
+        tracing::error!("path tracing is off, frames are rasterized: {error}");
+        self.stop_tracing();
+    }
+
     /// Gives back all that path tracing has on the device.
     fn stop_tracing(&mut self) {
         let waiting = self.seats.values_mut().filter_map(|seat| seat.tracer.take());
@@ -255,21 +267,20 @@ impl Renderer {
         }
     }
 
-    /// Runs `work` unless the device has failed; a failure is logged, once.
+    /// Runs `work` unless some has failed before. A lost device is left to its owner to speak of.
     fn unless_failed<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T, RenderError>) -> Option<T> {
-        if self.has_failed {
+        if self.failure.is_some() {
             return None;
         }
         match work(self) {
             Ok(value) => Some(value),
-            Err(error) if self.tracer.is_some() && error.is_out_of_memory() => {
-                tracing::error!("path tracing is off, frames are rasterized: {error}");
-                self.stop_tracing();
-                None
-            }
             Err(error) => {
-                tracing::error!("the renderer gives up: {error}");
-                self.has_failed = true;
+                match &error {
+                    error if self.tracer.is_some() && error.is_out_of_memory() => self.trace_no_more(error),
+                    error if error.is_device_lost() => {}
+                    error => tracing::error!("a frame could not be executed: {error}"),
+                }
+                self.failure = Some(error);
                 None
             }
         }

@@ -141,7 +141,8 @@ impl GlxDrawable {
         let (Some(shared), Some(target)) = (&group.shared, self.target()) else { return };
         let mut port = Port::new(shared);
         port.bind(Some(target.clone()), None);
-        port.submit(Frame { size: target.size(), ..Frame::default() }, End::Swap);
+        let frame = Frame { size: target.size(), device: port.device(), ..Frame::default() };
+        port.submit(frame, End::Swap);
         self.shown();
     }
 }

@@ -244,6 +244,8 @@ pub enum Operation {
 pub struct Frame {
     /// Size of the drawable, pixels.
     pub size: (u32, u32),
+    /// The device that its images are on, as [`Backend::device`](crate::backend::Backend::device) said when it was begun.
+    pub device: u64,
     /// What happens, in order.
     pub operations: Vec<Operation>,
     /// Vertices of this frame.
@@ -283,6 +285,19 @@ impl Frame {
         self.texture_matrices.clear();
         self.clip_planes.clear();
         self.current.clear();
+    }
+
+    /// Leaves out all but what images are made of from the program's memory: draws name images that are lost.
+    pub fn keep_images(&mut self) {
+        self.operations.retain(|operation| {
+            matches!(
+                operation,
+                Operation::DefineImage { .. }
+                    | Operation::Upload(_)
+                    | Operation::CopyImage { .. }
+                    | Operation::DropImage(_)
+            )
+        });
     }
 
     /// The draws with their places among the operations.

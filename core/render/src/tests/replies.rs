@@ -83,7 +83,7 @@ fn frames_handed_over_in_parts_are_one_frame() {
     assert_eq!(renderer.frame_report().unwrap().draws, 2);
     let picture = Picture::after(&mut renderer, &[]);
     assert_eq!([BLUE, GREEN, RED].map(|color| picture.count(color)), [8, 4, 4]);
-    assert!(!renderer.has_failed());
+    assert!(renderer.failure().is_none());
 }
 
 #[test]

@@ -1,0 +1,272 @@
+//! What the render thread owns, and what it does with messages.
+
+use std::collections::HashMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, mpsc};
+use std::time::{Duration, Instant};
+
+use afterglow_gl::backend::{Backend, End, Reply, Request};
+use afterglow_gl::frame::Frame;
+use afterglow_gpu::{DeviceKind, Gpu};
+use afterglow_render::{Mode, RenderError, RenderOptions, Renderer};
+use parking_lot::Mutex;
+
+use crate::drawable::Drawable;
+use crate::failures::Failures;
+use crate::life::Ending;
+use crate::message::Message;
+use crate::thread::EngineOptions;
+use crate::window::{Stage, Wanted, Window};
+use crate::xcb::Servers;
+
+/// Empty frames that are kept to be filled again.
+const RECYCLED_FRAMES: usize = 4;
+/// How often a lost device is opened again, and how long to wait in between: drivers take a while to come back.
+const OPENINGS: u32 = 3;
+const OPENING_PAUSE: Duration = Duration::from_millis(500);
+
+/// Everything that the thread owns.
+pub(crate) struct State {
+    /// None once it is given up: frames are dropped then.
+    gpu: Option<Gpu>,
+    options: EngineOptions,
+    recycled: Arc<Mutex<Vec<Frame>>>,
+    /// By share group.
+    renderers: HashMap<u64, Renderer>,
+    /// By drawable.
+    windows: HashMap<u64, Window>,
+    /// Dropped after all windows.
+    servers: Servers,
+    /// Frames that were begun with another number name images that are lost.
+    device_number: Arc<AtomicU64>,
+    /// What is on the device is not to be trusted any more.
+    has_failed: bool,
+    failures: Failures,
+}
+
+impl State {
+    pub(crate) fn new(
+        gpu: Gpu,
+        options: EngineOptions,
+        recycled: Arc<Mutex<Vec<Frame>>>,
+        device_number: Arc<AtomicU64>,
+    ) -> Self {
+        Self {
+            gpu: Some(gpu),
+            options,
+            recycled,
+            renderers: HashMap::new(),
+            windows: HashMap::new(),
+            servers: Servers::default(),
+            device_number,
+            has_failed: false,
+            failures: Failures::default(),
+        }
+    }
+
+    /// Handles messages until nobody can send any more, or the thread is not wanted.
+    pub(crate) fn run(mut self, messages: &mpsc::Receiver<Message>, ending: &Ending) {
+        while let Ok(message) = messages.recv()
+            && ending.is_wanted()
+        {
+            let finished = match &message {
+                Message::Frame { drawable, end, .. } => Some((drawable.clone(), *end)),
+                _ => None,
+            };
+            if catch_unwind(AssertUnwindSafe(|| self.handle(message))).is_err() {
+                tracing::error!("a bug in Afterglow: a frame was dropped");
+                self.has_failed = true;
+            }
+            if catch_unwind(AssertUnwindSafe(|| self.recover())).is_err() {
+                tracing::error!("a bug in Afterglow: nothing is drawn any more");
+                self.gpu = None;
+            }
+            if let Some((drawable, end)) = finished {
+                drawable.shared.queue_of(end).leave();
+            }
+        }
+    }
+
+    fn handle(&mut self, message: Message) {
+        match message {
+            Message::Drawable { drawable, surface } => {
+                self.windows.insert(drawable, Window::new(surface));
+            }
+            Message::DropDrawable { drawable } => {
+                if let Some(mut window) = self.windows.remove(&drawable) {
+                    window.close(&mut self.servers);
+                }
+                self.renderers.values_mut().for_each(|renderer| renderer.forget(drawable));
+            }
+            Message::DropGroup { group } => drop(self.renderers.remove(&group)),
+            Message::Frame { group, drawable, frame, end, handed_over } => {
+                if self.frame(group, &drawable, frame, end) && end == End::Swap {
+                    self.present(&drawable);
+                    self.note_pace(&drawable, handed_over);
+                }
+            }
+            Message::Ask { group, drawable, frame, request, reply } => {
+                let _ = reply.send(self.answer(group, &drawable, frame, request));
+            }
+            Message::Present { drawable } => self.present(&drawable),
+            Message::Stop => {}
+        }
+    }
+
+    /// Executes a frame. Whether there is something new to be shown.
+    fn frame(&mut self, group: u64, drawable: &Drawable, mut frame: Frame, end: End) -> bool {
+        let is_stale = self.is_stale(&frame);
+        let Some(renderer) = self.renderer(group, drawable.shared.id) else { return false };
+        if is_stale {
+            frame.keep_images();
+            renderer.submit_unlit(frame, End::Continued);
+        } else {
+            renderer.submit(frame, end);
+        }
+        let (empty, mode) = (renderer.recycle(), renderer.mode());
+        // It may have found that it cannot trace.
+        self.options.mode = mode;
+        let mut recycled = self.recycled.lock();
+        if recycled.len() < RECYCLED_FRAMES {
+            recycled.push(empty);
+        }
+        !is_stale
+    }
+
+    fn answer(&mut self, group: u64, drawable: &Drawable, mut frame: Frame, request: Request) -> Reply {
+        let is_stale = self.is_stale(&frame);
+        let Some(renderer) = self.renderer(group, drawable.shared.id) else { return Reply::Unavailable };
+        if is_stale {
+            frame.keep_images();
+            renderer.submit_unlit(frame, End::Continued);
+            return Reply::Unavailable;
+        }
+        renderer.answer(frame, request)
+    }
+
+    /// Whether a frame was begun before the images were lost that it names.
+    fn is_stale(&self, frame: &Frame) -> bool {
+        frame.device != self.device_number.load(Ordering::Relaxed)
+    }
+
+    fn note_pace(&mut self, drawable: &Drawable, handed_over: Instant) {
+        let Some(window) = self.windows.get_mut(&drawable.shared.id) else { return };
+        let group = window.group.and_then(|group| self.renderers.get(&group));
+        window.note_pace(handed_over, drawable.size(), self.options.hud.then_some(group).flatten());
+    }
+
+    /// The renderer of a share group, with a drawable selected.
+    fn renderer(&mut self, group: u64, drawable: u64) -> Option<&mut Renderer> {
+        if !self.renderers.contains_key(&group) {
+            let made = self.make_renderer(self.gpu.as_ref()?);
+            let made = self.checked("no renderer", made)?;
+            self.renderers.insert(group, made);
+        }
+        let selected = self.renderers.get_mut(&group)?.select(drawable);
+        self.checked("no drawable", selected)?;
+        if let Some(window) = self.windows.get_mut(&drawable) {
+            window.group = Some(group);
+        }
+        self.renderers.get_mut(&group)
+    }
+
+    /// Shows what was drawn to a drawable last.
+    fn present(&mut self, drawable: &Drawable) {
+        let id = drawable.shared.id;
+        let Some(group) = self.windows.get(&id).and_then(|window| window.group) else { return };
+        if self.renderer(group, id).is_none() {
+            return;
+        }
+        let (Some(gpu), Some(window), Some(renderer)) =
+            (&self.gpu, self.windows.get_mut(&id), self.renderers.get_mut(&group))
+        else {
+            return;
+        };
+        let wanted = Wanted { waits_for_blank: drawable.swap_interval() != 0, size: drawable.size() };
+        let stage = Stage { gpu, servers: &mut self.servers, renderer };
+        if let Some(size) = window.present(stage, wanted) {
+            drawable.set_size(size);
+        }
+    }
+
+    fn make_renderer(&self, gpu: &Gpu) -> Result<Renderer, RenderError> {
+        let mut options = RenderOptions::default();
+        // A processor that plays the device would have to wait for each pass.
+        options.timing = self.options.hud && gpu.info().kind != DeviceKind::Cpu;
+        let mut renderer = Renderer::new(gpu, &options)?;
+        match renderer.set_mode(self.options.mode, &self.options.pathtrace) {
+            Err(error) if error.is_out_of_memory() => {
+                tracing::error!("path tracing is off, frames are rasterized: {error}");
+            }
+            other => other?,
+        }
+        Ok(renderer)
+    }
+
+    /// A failure is logged and remembered.
+    fn checked<T>(&mut self, what: &str, result: Result<T, RenderError>) -> Option<T> {
+        if let Err(error) = &result {
+            if !error.is_device_lost() {
+                tracing::error!("{what}: {error}");
+            }
+            self.has_failed = true;
+        }
+        result.ok()
+    }
+
+    /// Begins anew if the device was lost, or a renderer has failed.
+    fn recover(&mut self) {
+        let Some(gpu) = &self.gpu else { return };
+        let is_lost = gpu.is_lost();
+        if !is_lost
+            && !self.has_failed
+            && self.renderers.values().all(|renderer| renderer.failure().is_none())
+        {
+            return;
+        }
+        self.has_failed = false;
+        self.renderers.clear();
+        self.windows.values_mut().for_each(Window::leave_device);
+        let may_try = self.may_try(if is_lost { "the device was lost" } else { "drawing has failed" });
+        if is_lost || !may_try {
+            self.gpu = None;
+        }
+        if is_lost && may_try {
+            tracing::error!("the device was lost: it is opened again, and everything uploaded again");
+            self.gpu = opened(&self.options);
+        }
+        // From here on contexts define their images anew.
+        self.device_number.fetch_add(1, Ordering::Release);
+    }
+
+    /// Whether to go on after one more failure: at first as before, then without rays.
+    fn may_try(&mut self, what: &str) -> bool {
+        if self.failures.allow(Instant::now()) {
+            return true;
+        }
+        if self.options.mode == Mode::Raster {
+            tracing::error!("{what} again and again: nothing is drawn any more");
+            return false;
+        }
+        tracing::error!("{what} again and again: path tracing is off, frames are rasterized");
+        self.options.mode = Mode::Raster;
+        self.failures = Failures::default();
+        true
+    }
+}
+
+/// A device in place of a lost one, which must have been dropped.
+fn opened(options: &EngineOptions) -> Option<Gpu> {
+    for opening in 1.. {
+        match Gpu::new(&options.gpu) {
+            Ok(gpu) => return Some(gpu),
+            Err(error) if opening == OPENINGS => {
+                tracing::error!("there is no device any more, nothing is drawn: {error}");
+                break;
+            }
+            Err(_) => std::thread::sleep(OPENING_PAUSE),
+        }
+    }
+    None
+}

@@ -1,0 +1,10 @@
+//! The render thread from outside: a program draws, and pictures come back and in windows.
+
+#![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
+
+mod failures;
+mod program;
+#[cfg(target_os = "linux")]
+mod server;
+#[cfg(target_os = "linux")]
+mod windows;

@@ -23,7 +23,10 @@ const FILES: [(&str, &str); 3] = [
         "$XDG_CACHE_HOME/afterglow/pipelines",
         "Compiled shaders of each device. May be removed; the next start takes longer then.",
     ),
-    ("$XDG_CACHE_HOME/afterglow/lavapipe", "A software driver that ./x setup puts there for --device lavapipe."),
+    (
+        "$XDG_CACHE_HOME/afterglow/lavapipe",
+        "A software driver that ./x setup puts there for --device lavapipe.",
+    ),
 ];
 
 const EXIT_CODES: [(&str, &str); 5] = [
@@ -35,8 +38,14 @@ const EXIT_CODES: [(&str, &str); 5] = [
 ];
 
 const VARIABLES: [(&str, &str); 4] = [
-    ("AFTERGLOW_MODE, AFTERGLOW_DEVICE, ...", "Every option of a command has a variable, which its page names."),
-    ("AFTERGLOW_LOG", "What the library tells on standard error: error, warn (if absent), info, debug or trace."),
+    (
+        "AFTERGLOW_MODE, AFTERGLOW_DEVICE, ...",
+        "Every option of a command has a variable, which its page names.",
+    ),
+    (
+        "AFTERGLOW_LOG",
+        "What the library tells on standard error: error, warn (if absent), info, debug or trace.",
+    ),
     ("AFTERGLOW_NOOP", "The library draws nothing, to measure what calls cost a program."),
     ("LD_LIBRARY_PATH", "A program that finds the library's folder there needs no `afterglow run`."),
 ];

@@ -22,7 +22,7 @@ pub(crate) fn line(figures: Figures, mode: Mode, size: (u32, u32), report: &Fram
         Mode::Raster => "raster",
         Mode::Pathtrace => "pathtrace",
     };
-    let Figures { rate, latency } = figures;
+    let Figures { rate, latency, .. } = figures;
     let mut line = format!("{rate:.1} fps  {:.1} ms  latency {latency:.1} ms", 1000.0 / rate.max(1e-3));
     let _ = write!(line, "  {mode}  {}x{}", size.0, size.1);
     let device: f64 = report.passes.iter().map(|pass| pass.milliseconds).sum();

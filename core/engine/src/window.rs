@@ -109,7 +109,8 @@ impl Window {
         let now = Instant::now();
         if let Some(figures) = self.logged.shown(handed_over, now) {
             tracing::info!(
-                "{:.1} frames a second at {}x{}, {:.1} ms after the buffer swap",
+                "frame {}: {:.1} a second at {}x{}, {:.1} ms after the buffer swap",
+                figures.frame,
                 figures.rate,
                 size.0,
                 size.1,

@@ -10,6 +10,7 @@ use afterglow_gl::Context;
 
 use super::contexts::{self, GlxContext};
 use super::drawables::{self, GlxDrawable};
+use super::errors::Fault;
 use super::xlib::{Display, Xid};
 use crate::boundary::guarded;
 use crate::current;
@@ -94,49 +95,64 @@ impl Drop for Binding {
     }
 }
 
-/// Makes a context current, or none if it is null. `false` if that is not possible: what was current stays so.
+/// Makes a context current, or none if it is null.
+///
+/// # Errors
+/// What is not possible; what was current stays so.
 ///
 /// # Safety
 /// `display` is null or open.
-pub unsafe fn make_current(display: *mut Display, draw: Xid, read: Xid, context: *const c_void) -> bool {
+pub unsafe fn make_current(
+    display: *mut Display,
+    draw: Xid,
+    read: Xid,
+    context: *const c_void,
+) -> Result<(), Fault> {
     if with(|binding| binding.is(display, draw, read, context)) == Some(true) {
-        return true;
+        return Ok(());
     }
     if context.is_null() {
-        return replace(|| None);
+        return match (draw, read) {
+            (0, 0) => replace(|| None),
+            _ => Err(Fault::BadMatch),
+        };
     }
-    let Some(context) = contexts::get(context) else { return false };
+    let context = contexts::get(context).ok_or(Fault::BadContext)?;
+    if draw == 0 || read == 0 {
+        return Err(Fault::BadMatch);
+    }
     // SAFETY: the caller vouches for the display.
     let find = |id| unsafe {
-        let found = drawables::get_or_window(display, id)?;
+        let found = drawables::get_or_window(display, id).ok_or(Fault::BadDrawable)?;
         if !found.refresh_size(display) {
             // X will give the id to another window.
             drawables::destroy(display, id);
-            return None;
+            return Err(Fault::BadDrawable);
         }
-        Some((id, found))
+        Ok((id, found))
     };
-    let Some(drawn) = find(draw) else { return false };
-    let Some(read) = (if read == draw { Some(drawn.clone()) } else { find(read) }) else { return false };
+    let drawn = find(draw)?;
+    let read = if read == draw { drawn.clone() } else { find(read)? };
     let is_own = with(|binding| Arc::ptr_eq(&binding.context, &context)) == Some(true);
     if !is_own && !context.claim() {
-        return false;
+        return Err(Fault::BadAccess);
     }
     replace(|| {
         // The claim of a thread's own context ended with its binding.
         (!is_own || context.claim()).then(|| Binding::new(display as usize, context, drawn, read))
-    }) && with(|_| ()).is_some()
+    })?;
+    with(|_| ()).ok_or(Fault::BadAccess)
 }
 
-/// Ends what is current, and then makes and keeps another one. `false` if the thread is ending.
-fn replace(make: impl FnOnce() -> Option<Binding>) -> bool {
+/// Ends what is current, and then makes and keeps another one. An error if the thread is ending.
+fn replace(make: impl FnOnce() -> Option<Binding>) -> Result<(), Fault> {
     let replaced = BINDING.try_with(|slot| {
         let former = slot.borrow_mut().take();
         drop(former);
         let new = make().map(Rc::new);
         *slot.borrow_mut() = new;
     });
-    replaced.is_ok()
+    replaced.map_err(|_| Fault::BadAccess)
 }
 
 /// Swaps the buffers of a drawable.
@@ -145,7 +161,6 @@ pub fn swap(display: *mut Display, drawable: Xid) {
     if own == Some(true) {
         with_gl(|binding, gl| {
             gl.swap_buffers();
-            binding.draw.shown();
             let (width, height) = binding.draw.size();
             gl.set_drawable(width, height);
         });
@@ -162,8 +177,7 @@ pub fn flushed(gl: &mut Context) {
             gl.hand_over_so_far();
             if let Some(target) = binding.draw.target() {
                 target.present();
-                binding.draw.shown();
-                let (width, height) = target.size();
+                    let (width, height) = target.size();
                 gl.set_drawable(width, height);
             }
         } else if binding.context.is_shared() {
@@ -221,7 +235,7 @@ mod tests {
 
     fn bind(display: *mut Display, drawable: Xid, context: usize) -> bool {
         // SAFETY: as above.
-        unsafe { make_current(display, drawable, drawable, without_provenance(context)) }
+        unsafe { make_current(display, drawable, drawable, without_provenance(context)) }.is_ok()
     }
 
     #[test]

@@ -12,6 +12,7 @@ use afterglow_gl::{Context, SharedNames};
 use parking_lot::Mutex;
 
 use super::config::Config;
+use super::errors::Fault;
 use super::render;
 
 /// Contexts that exist at a time.
@@ -111,29 +112,32 @@ pub fn get(handle: *const c_void) -> Option<Arc<GlxContext>> {
     CONTEXTS.lock().by_handle.as_ref()?.get(&(handle as usize)).cloned()
 }
 
-/// Makes a context that shares names with another one, unless that is null; nothing if that is garbage.
-pub fn create(config: &'static Config, share: *const c_void) -> Option<Arc<GlxContext>> {
+/// Makes a context that shares names with another one, unless that is null.
+///
+/// # Errors
+/// If that is garbage, or there are too many contexts.
+pub fn create(config: &'static Config, share: *const c_void) -> Result<Arc<GlxContext>, Fault> {
     let group = match share.is_null() {
         true => Arc::new(Group::new()),
-        false => get(share)?.group.clone(),
+        false => get(share).ok_or(Fault::BadContext)?.group.clone(),
     };
     let mut contexts = CONTEXTS.lock();
     let Contexts { by_handle, last } = &mut *contexts;
     let by_handle = by_handle.get_or_insert_default();
     if by_handle.len() >= MOST_CONTEXTS {
-        return None;
+        return Err(Fault::BadAlloc);
     }
     *last += HANDLE_STEP;
     let context = Arc::new(GlxContext::new(*last, config, group));
     by_handle.insert(*last, context.clone());
-    Some(context)
+    Ok(context)
 }
 
-/// Takes a context's handle away; the context lives on while it is current.
-pub fn destroy(handle: *const c_void) {
+/// Takes a context's handle away, if there is such a one; the context lives on while it is current.
+pub fn destroy(handle: *const c_void) -> bool {
     // Not in the statement's temporary: dropping a context takes other locks.
     let removed = CONTEXTS.lock().by_handle.as_mut().and_then(|contexts| contexts.remove(&(handle as usize)));
-    drop(removed);
+    removed.is_some()
 }
 
 #[cfg(test)]
@@ -147,8 +151,8 @@ mod tests {
     fn handles_come_and_go() {
         let config = &keep(all(0, &[Visual { id: 0x93, depth: 24 }]))[0];
         let garbage = without_provenance(0x1235);
-        assert!(get(garbage).is_none() && create(config, garbage).is_none());
-        destroy(garbage);
+        assert!(get(garbage).is_none() && create(config, garbage).is_err());
+        assert!(!destroy(garbage));
         let first = create(config, null()).unwrap();
         assert!(!first.is_shared());
         let second = create(config, without_provenance(first.handle)).unwrap();
@@ -167,6 +171,6 @@ mod tests {
         assert!(context.claim() && !context.claim());
         context.release();
         assert!(context.claim());
-        destroy(without_provenance(context.handle));
+        assert!(destroy(without_provenance(context.handle)));
     }
 }

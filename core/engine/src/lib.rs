@@ -5,10 +5,12 @@
 //! queue holds two frames: a program that is faster waits at its buffer swap.
 
 mod drawable;
+mod flushed;
 mod life;
 mod message;
 mod pace;
 mod port;
+mod queue;
 mod thread;
 mod window;
 mod xcb;

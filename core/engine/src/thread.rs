@@ -13,6 +13,7 @@ use afterglow_render::{Mode, PathtraceOptions, RenderOptions, Renderer};
 use parking_lot::Mutex;
 
 use crate::drawable::{Drawable, Surface};
+use crate::flushed::FlushedFrames;
 use crate::life::{Ending, Life};
 use crate::message::Message;
 use crate::port::ShareGroup;
@@ -54,9 +55,10 @@ pub struct Engine {
 }
 
 struct Shared {
-    sender: Mutex<mpsc::Sender<Message>>,
+    sender: mpsc::Sender<Message>,
     life: Arc<Life>,
     recycled: Arc<Mutex<Vec<Frame>>>,
+    flushed: FlushedFrames,
     /// A forked process has no render thread.
     process: u32,
     last_id: AtomicU64,
@@ -96,9 +98,10 @@ impl Engine {
         })?;
         let device = is_ready.recv().map_err(|_| EngineError::Died)??;
         let shared = Shared {
-            sender: Mutex::new(sender),
+            sender,
             life,
             recycled,
+            flushed: FlushedFrames::default(),
             process: std::process::id(),
             last_id: AtomicU64::new(0),
             device,
@@ -148,15 +151,20 @@ impl Engine {
         }
     }
 
-    fn next_id(&self) -> u64 {
+    pub(crate) fn next_id(&self) -> u64 {
         self.shared.last_id.fetch_add(1, Ordering::Relaxed) + 1
     }
 
     /// Sends a message; nobody gets it if the thread is gone.
     pub(crate) fn send(&self, message: Message) {
         if self.is_alive() {
-            let _ = self.shared.sender.lock().send(message);
+            let _ = self.shared.sender.send(message);
         }
+    }
+
+    /// What programs flushed; nothing where nobody will draw it. In a forked process the lock may be held for ever.
+    pub(crate) fn flushed(&self) -> Option<&FlushedFrames> {
+        self.is_alive().then_some(&self.shared.flushed)
     }
 
     /// An empty frame, with the memory of an earlier one where possible.
@@ -227,7 +235,7 @@ impl State {
             Message::DropGroup { group } => drop(self.renderers.remove(&group)),
             Message::Frame { group, drawable, frame, end, handed_over } => {
                 self.frame(group, &drawable, frame, end);
-                if end == End::Swap {
+                if end != End::Continued {
                     self.present(&drawable);
                     self.note_pace(&drawable, handed_over);
                 }
@@ -275,12 +283,26 @@ impl State {
             let made = self.make_renderer().map_err(|error| tracing::error!("no renderer: {error}")).ok()?;
             self.renderers.insert(group, made);
         }
+        self.carry(drawable, group);
         let renderer = self.renderers.get_mut(&group)?;
         renderer.select(drawable).map_err(|error| tracing::error!("no drawable: {error}")).ok()?;
         if let Some(window) = self.windows.get_mut(&drawable) {
             window.group = Some(group);
         }
         Some(renderer)
+    }
+
+    /// Takes what a drawable shows to a share group's renderer, if another group drew to it last.
+    fn carry(&mut self, drawable: u64, group: u64) {
+        let former = self.windows.get(&drawable).and_then(|window| window.group).filter(|last| *last != group);
+        let former = former.and_then(|former| self.renderers.get_mut(&former));
+        let carried = former.and_then(|former| former.give_up(drawable));
+        let renderer = self.renderers.get_mut(&group);
+        if let (Some(carried), Some(renderer)) = (carried, renderer)
+            && let Err(error) = renderer.take_over(drawable, carried)
+        {
+            tracing::error!("a drawable begins anew: {error}");
+        }
     }
 
     /// Shows what was drawn to a drawable last.

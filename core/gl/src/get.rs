@@ -129,6 +129,7 @@ impl Context {
 
     fn get_limit(&self, pname: u32) -> Option<Value> {
         let limit = |value: usize| ints([value as i32]);
+        let buffers = &self.output.buffers;
         match pname {
             GL_MAX_LIGHTS => limit(LIGHTS),
             GL_MAX_CLIP_PLANES => limit(CLIP_PLANES),
@@ -150,11 +151,15 @@ impl Context {
             GL_NUM_COMPRESSED_TEXTURE_FORMATS => ints([0]),
             GL_COMPRESSED_TEXTURE_FORMATS => Some(Value::Ints(Vec::new())),
             GL_SUBPIXEL_BITS => ints([8]),
-            GL_RED_BITS | GL_GREEN_BITS | GL_BLUE_BITS | GL_ALPHA_BITS | GL_STENCIL_BITS => ints([8]),
-            GL_DEPTH_BITS => ints([24]),
-            GL_ACCUM_RED_BITS | GL_ACCUM_GREEN_BITS | GL_ACCUM_BLUE_BITS | GL_ACCUM_ALPHA_BITS => ints([16]),
+            GL_RED_BITS | GL_GREEN_BITS | GL_BLUE_BITS | GL_ALPHA_BITS => ints([8]),
+            GL_STENCIL_BITS => limit(buffers.stencil.into()),
+            GL_DEPTH_BITS => limit(buffers.depth.into()),
+            GL_ACCUM_RED_BITS | GL_ACCUM_GREEN_BITS | GL_ACCUM_BLUE_BITS | GL_ACCUM_ALPHA_BITS => {
+                limit(buffers.accumulation.into())
+            }
             GL_INDEX_BITS | GL_AUX_BUFFERS | GL_SAMPLE_BUFFERS | GL_SAMPLES => ints([0]),
-            GL_DOUBLEBUFFER | GL_RGBA_MODE => flag(true),
+            GL_DOUBLEBUFFER => flag(buffers.is_double),
+            GL_RGBA_MODE => flag(true),
             GL_STEREO | GL_INDEX_MODE => flag(false),
             GL_ALIASED_POINT_SIZE_RANGE | GL_POINT_SIZE_RANGE => floats(&[1.0, limits::POINT_SIZE_MAX]),
             GL_ALIASED_LINE_WIDTH_RANGE | GL_LINE_WIDTH_RANGE => floats(&[1.0, limits::LINE_WIDTH_MAX]),

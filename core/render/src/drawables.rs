@@ -17,6 +17,13 @@ pub(crate) struct Seat {
     swaps: u64,
 }
 
+/// What a drawable shows, on its way from one renderer to another of the same device.
+pub struct Carried {
+    target: Target,
+    accumulator: Accumulator,
+    swaps: u64,
+}
+
 impl Renderer {
     /// Chooses what is drawn to, by a number that the caller gives out (not 0). The first choice is the window that the
     /// renderer was made with; a new number is a window of one pixel that the next frame resizes.
@@ -57,6 +64,32 @@ impl Renderer {
             // The next one that is selected takes its images over.
             self.drawable = 0;
         }
+    }
+
+    /// Gives away what a drawable shows. Nothing if it is not known here, or the device fails.
+    pub fn give_up(&mut self, drawable: u64) -> Option<Carried> {
+        if self.drawable != drawable && !self.seats.contains_key(&drawable) {
+            return None;
+        }
+        let emptied = self.select(drawable).and_then(|()| {
+            self.settle()?;
+            Ok(Carried {
+                target: std::mem::replace(&mut self.target, Target::new(&self.gpu, [1, 1])?),
+                accumulator: std::mem::replace(&mut self.accumulator, Accumulator::new(&self.gpu)?),
+                swaps: self.swaps,
+            })
+        });
+        emptied.map_err(|error| tracing::error!("a drawable is lost: {error}")).ok()
+    }
+
+    /// Goes on with what a drawable shows.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn take_over(&mut self, drawable: u64, carried: Carried) -> Result<(), RenderError> {
+        self.select(drawable)?;
+        (self.target, self.accumulator, self.swaps) = (carried.target, carried.accumulator, carried.swaps);
+        Ok(())
     }
 
     /// Shows the selected drawable in a window.

@@ -6,12 +6,14 @@ use std::ptr::null_mut;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use afterglow_engine::Port;
 use afterglow_gl::Context;
 
 use super::contexts::{self, GlxContext};
-use super::drawables::{self, GlxDrawable};
+use super::drawables::{self, GlxDrawable, Kind};
 use super::errors::Fault;
 use super::xlib::{Display, Xid};
+use super::{displays, pixmaps};
 use crate::boundary::guarded;
 use crate::current;
 
@@ -69,15 +71,50 @@ impl Binding {
             port.bind(draw.target().cloned(), read.target().cloned());
         }
         draw.drawn_by(&context.group);
+        let buffers = draw.config.unwrap_or(context.config).buffers();
+        if let Some(target) = draw.target().filter(|_| !buffers.is_double) {
+            // Flushes come often, and do not wait for the screen.
+            target.set_swap_interval(0);
+        }
         // SAFETY: the calling thread has claimed the context.
-        unsafe { &mut *context.gl() }.set_drawable(width, height);
+        let gl = unsafe { &mut *context.gl() };
+        gl.set_buffers(buffers);
+        gl.set_drawable(width, height);
+        gl.set_reads_elsewhere(context.port.as_ref().is_some_and(Port::reads_elsewhere));
         current::set(context.gl());
         Self { display, draw_id, read_id, context, draw, asked: Cell::default() }
     }
 
-    /// Whether what is drawn shows without a buffer swap.
-    pub fn is_single(&self) -> bool {
-        !self.draw.config.unwrap_or(self.context.config).is_double
+    /// What glFlush does beyond the context: drawing shows where no buffer swap will show it, and others see it.
+    fn flush(&self, gl: &mut Context) {
+        let shows_at_once = gl.shows_at_once();
+        if let Kind::Pixmap { pixmap } = self.draw.kind {
+            gl.hand_over_picture();
+            self.publish(pixmap);
+        } else if shows_at_once {
+            gl.hand_over_picture();
+            if let Some(target) = self.draw.target() {
+                target.present();
+                let (width, height) = target.size();
+                gl.set_drawable(width, height);
+            }
+        } else {
+            gl.flush_so_far();
+        }
+    }
+
+    /// Copies what was drawn to the pixmap of X.
+    fn publish(&self, pixmap: Xid) {
+        let (Some(target), Some(port)) = (self.draw.target(), &self.context.port) else { return };
+        let display: *mut Display = std::ptr::with_exposed_provenance_mut(self.display);
+        // A display that was closed meanwhile took the pixmap with it.
+        if !displays::is_open(display) || !target.take_drawn() {
+            return;
+        }
+        if let Some(pixels) = port.clone().colors() {
+            // SAFETY: it is open.
+            unsafe { pixmaps::put(display, pixmap, self.draw.size(), &pixels) };
+        }
     }
 }
 
@@ -146,6 +183,8 @@ pub unsafe fn make_current(
 
 /// Ends what is current, and then makes and keeps another one. An error if the thread is ending.
 fn replace(make: impl FnOnce() -> Option<Binding>) -> Result<(), Fault> {
+    // What is no longer current is flushed (3.3.7).
+    with_gl(Binding::flush);
     let replaced = BINDING.try_with(|slot| {
         let former = slot.borrow_mut().take();
         drop(former);
@@ -155,12 +194,18 @@ fn replace(make: impl FnOnce() -> Option<Binding>) -> Result<(), Fault> {
     replaced.map_err(|_| Fault::BadAccess)
 }
 
-/// Swaps the buffers of a drawable.
+/// Swaps the buffers of a drawable. Where there is only one, what is drawn shows all the same.
 pub fn swap(display: *mut Display, drawable: Xid) {
     let own = with(|binding| binding.draw_id == drawable && binding.display == display as usize);
     if own == Some(true) {
         with_gl(|binding, gl| {
+            if !binding.draw.config.unwrap_or(binding.context.config).is_double {
+                return binding.flush(gl);
+            }
             gl.swap_buffers();
+            if let Kind::Pixmap { pixmap } = binding.draw.kind {
+                binding.publish(pixmap);
+            }
             let (width, height) = binding.draw.size();
             gl.set_drawable(width, height);
         });
@@ -169,21 +214,10 @@ pub fn swap(display: *mut Display, drawable: Xid) {
     }
 }
 
-/// What glFlush and glFinish of the current context, `gl`, do beyond it: single-buffered drawing shows, and contexts
-/// that share its names see what it did.
+/// What glFlush and glFinish of the current context, `gl`, do beyond it: what is drawn where it shows at once is shown,
+/// and other contexts see what this one did.
 pub fn flushed(gl: &mut Context) {
-    with(|binding| {
-        if binding.is_single() {
-            gl.hand_over_so_far();
-            if let Some(target) = binding.draw.target() {
-                target.present();
-                    let (width, height) = target.size();
-                gl.set_drawable(width, height);
-            }
-        } else if binding.context.is_shared() {
-            gl.hand_over_so_far();
-        }
-    });
+    with(|binding| binding.flush(gl));
 }
 
 /// What glViewport of the current context, `gl`, does beyond it. A program that was told of its window's new size comes
@@ -209,8 +243,9 @@ pub fn viewport_set(gl: &mut Context, width: i32, height: i32) {
 mod tests {
     use std::ptr::{null, without_provenance, without_provenance_mut};
 
+    use afterglow_api::constants::*;
+
     use super::super::config::{Config, Visual, all, keep};
-    use super::super::drawables::Kind;
     use super::*;
 
     const CONFIG: Config = Config {
@@ -293,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_configuration_says_whether_a_flush_shows() {
+    fn queries_follow_the_configuration() {
         let table = keep(all(0, &[Visual { id: 0x95, depth: 24 }]));
         let display = display(0x73);
         for config in table {
@@ -302,7 +337,11 @@ mod tests {
             let drawable =
                 unsafe { drawables::create(display, Kind::Pbuffer, config, String::new(), (1, 1)) };
             assert!(bind(display, drawable, context));
-            assert_eq!(with(Binding::is_single), Some(!config.is_double));
+            let names = [GL_DOUBLEBUFFER, GL_DEPTH_BITS, GL_STENCIL_BITS, GL_ACCUM_RED_BITS];
+            let bits = with_gl(|_, gl| names.map(|name| gl.get_integer(name)[0]));
+            assert_eq!(bits, Some([config.is_double.into(), config.depth, config.stencil, config.accum]));
+            let buffer = if config.is_double { GL_BACK } else { GL_FRONT };
+            assert_eq!(with_gl(|_, gl| gl.get_integer(GL_DRAW_BUFFER)), Some(vec![buffer as i32]));
         }
         assert!(bind(display, 0, 0));
     }

@@ -14,6 +14,7 @@ use parking_lot::Mutex;
 use super::config::Config;
 use super::errors::Fault;
 use super::render;
+use crate::current;
 
 /// Contexts that exist at a time.
 const MOST_CONTEXTS: usize = 1024;
@@ -93,11 +94,6 @@ impl GlxContext {
     pub fn gl(&self) -> *mut Context {
         self.gl.get()
     }
-
-    /// Whether other contexts see its names.
-    pub fn is_shared(&self) -> bool {
-        Arc::strong_count(&self.group) > 1
-    }
 }
 
 static CONTEXTS: Mutex<Contexts> = Mutex::new(Contexts { by_handle: None, last: 0 });
@@ -140,9 +136,39 @@ pub fn destroy(handle: *const c_void) -> bool {
     removed.is_some()
 }
 
+/// Copies groups of state, which `mask` names as glPushAttrib's does, from one context to another.
+///
+/// # Errors
+/// If there are no such contexts, the second one is current, or the first one is current in another thread.
+pub fn copy(source: *const c_void, destination: *const c_void, mask: u32) -> Result<(), Fault> {
+    let (source, destination) = match (get(source), get(destination)) {
+        (Some(source), Some(destination)) => (source, destination),
+        _ => return Err(Fault::BadContext),
+    };
+    if !destination.claim() {
+        return Err(Fault::BadAccess);
+    }
+    let is_own = current::get() == source.gl();
+    let copied = if is_own || source.claim() {
+        // SAFETY: both are the calling thread's alone, and differ: none can be claimed twice, or be current and claimed.
+        let (from, to) = unsafe { (&mut *source.gl(), &mut *destination.gl()) };
+        to.copy_state(from, mask);
+        if !is_own {
+            source.release();
+        }
+        Ok(())
+    } else {
+        Err(Fault::BadAccess)
+    };
+    destination.release();
+    copied
+}
+
 #[cfg(test)]
 mod tests {
     use std::ptr::{null, without_provenance};
+
+    use afterglow_api::constants::*;
 
     use super::super::config::{Visual, all, keep};
     use super::*;
@@ -154,14 +180,30 @@ mod tests {
         assert!(get(garbage).is_none() && create(config, garbage).is_err());
         assert!(!destroy(garbage));
         let first = create(config, null()).unwrap();
-        assert!(!first.is_shared());
         let second = create(config, without_provenance(first.handle)).unwrap();
-        assert!(first.is_shared() && first.handle != second.handle);
+        assert!(Arc::ptr_eq(&first.group, &second.group) && first.handle != second.handle);
         destroy(without_provenance(second.handle));
         drop(second);
-        assert!(!first.is_shared() && get(without_provenance(first.handle)).is_some());
+        assert!(get(without_provenance(first.handle)).is_some());
         destroy(without_provenance(first.handle));
         assert!(get(without_provenance(first.handle)).is_none());
+    }
+
+    #[test]
+    fn state_is_copied() {
+        let config = &keep(all(0, &[Visual { id: 0x96, depth: 24 }]))[0];
+        let [source, destination] = [(); 2].map(|()| create(config, null()).unwrap());
+        let handle = |context: &GlxContext| without_provenance(context.handle);
+        // SAFETY: no other thread knows the contexts.
+        let (from, to) = unsafe { (&mut *source.gl(), &mut *destination.gl()) };
+        from.line_width(3.0);
+        from.point_size(5.0);
+        assert_eq!(copy(handle(&source), handle(&destination), GL_LINE_BIT), Ok(()));
+        assert_eq!((to.get_float(GL_LINE_WIDTH), to.get_float(GL_POINT_SIZE)), (vec![3.0], vec![1.0]));
+        assert_eq!(copy(handle(&source), handle(&source), GL_LINE_BIT), Err(Fault::BadAccess));
+        assert_eq!(copy(handle(&source), without_provenance(0x1239), 0), Err(Fault::BadContext));
+        assert!(source.claim() && destination.claim());
+        [source, destination].map(|context| destroy(handle(&context)));
     }
 
     #[test]

@@ -73,6 +73,11 @@ pub unsafe fn get(display: *mut Display) -> Option<Arc<OpenDisplay>> {
     Some(made)
 }
 
+/// Whether a display that was known is open still.
+pub fn is_open(display: *mut Display) -> bool {
+    DISPLAYS.lock().as_ref().is_some_and(|displays| displays.contains_key(&(display as usize)))
+}
+
 /// Forgets a display that is being closed.
 unsafe extern "C" fn closed(display: *mut Display, _: *mut c_void) -> c_int {
     guarded(|| {

@@ -17,6 +17,7 @@ mod drawables;
 mod errors;
 pub mod exports;
 mod glyphs;
+mod pixmaps;
 pub mod proc_address;
 mod recording;
 mod render;

@@ -98,6 +98,15 @@ pub struct ErrorEvent {
 
 /// Called with what went wrong.
 pub type ErrorHandler = unsafe extern "C" fn(*mut Display, *mut c_void) -> c_int;
+/// Of a window or pixmap.
+#[derive(Debug, Clone, Copy)]
+pub struct Geometry {
+    /// Width and height, pixels.
+    pub size: (u32, u32),
+    /// Bits of a pixel.
+    pub depth: c_uint,
+}
+
 /// Called when a display is closed.
 pub type CloseHook = unsafe extern "C" fn(*mut Display, *mut c_void) -> c_int;
 
@@ -148,6 +157,8 @@ functions! {
     set_font = XSetFont(*mut Display, *mut c_void, Xid) -> c_int;
     fill_rectangle = XFillRectangle(*mut Display, Xid, *mut c_void, c_int, c_int, c_uint, c_uint) -> c_int;
     draw_string16 = XDrawString16(*mut Display, Xid, *mut c_void, c_int, c_int, *const Char2b, c_int) -> c_int;
+    create_image = XCreateImage(*mut Display, *mut c_void, c_uint, c_int, c_int, *mut c_char, c_uint, c_uint, c_int, c_int) -> *mut c_void;
+    put_image = XPutImage(*mut Display, Xid, *mut c_void, *mut c_void, c_int, c_int, c_int, c_int, c_uint, c_uint) -> c_int;
     get_image = XGetImage(*mut Display, Xid, c_int, c_int, c_uint, c_uint, c_ulong, c_int) -> *mut c_void;
     get_pixel = XGetPixel(*mut c_void, c_int, c_int) -> c_ulong;
     destroy_image = XDestroyImage(*mut c_void) -> c_int;
@@ -200,6 +211,15 @@ impl Xlib {
     /// # Safety
     /// `display` is open.
     pub unsafe fn size(&self, display: *mut Display, drawable: Xid) -> Option<(u32, u32)> {
+        // SAFETY: the caller vouches for the display.
+        unsafe { self.geometry(display, drawable) }.map(|geometry| geometry.size)
+    }
+
+    /// The form of a window or pixmap; nothing if there is no such thing.
+    ///
+    /// # Safety
+    /// `display` is open.
+    pub unsafe fn geometry(&self, display: *mut Display, drawable: Xid) -> Option<Geometry> {
         let (mut root, mut x, mut y, mut width, mut height, mut border, mut depth) = (0, 0, 0, 0, 0, 0, 0);
         let query = || {
             // SAFETY: the caller vouches for the display; all pointers are of variables.
@@ -219,7 +239,7 @@ impl Xlib {
         };
         // SAFETY: as above; the query waits for its answer.
         let found = unsafe { self.forgiving(display, query) };
-        (found != 0).then_some((width, height))
+        (found != 0).then_some(Geometry { size: (width, height), depth })
     }
 
     /// The visuals of a screen.

@@ -271,10 +271,19 @@ pub unsafe extern "C" fn glXIsDirect(_: *mut Display, context: *mut c_void) -> c
     guarded(|| contexts::get(context).is_some()).unwrap_or(false).into()
 }
 
-/// glXCopyContext: not done.
+/// glXCopyContext.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn glXCopyContext(_: *mut Display, _: *mut c_void, _: *mut c_void, mask: c_ulong) {
-    guarded(|| tracing::warn!("glXCopyContext({mask:#x}) copies nothing"));
+pub unsafe extern "C" fn glXCopyContext(
+    display: *mut Display,
+    source: *mut c_void,
+    destination: *mut c_void,
+    mask: c_ulong,
+) {
+    let copied = guarded(|| contexts::copy(source, destination, mask as u32)).unwrap_or(Ok(()));
+    if let Err(fault) = copied {
+        // SAFETY: the program vouches for its display.
+        guarded(|| unsafe { errors::raise(display, fault, Request::CopyContext, 0) });
+    }
 }
 
 /// glXQueryContext. The result is an error code.

@@ -232,7 +232,7 @@ impl State {
                 self.windows.remove(&drawable);
                 self.renderers.values_mut().for_each(|renderer| renderer.forget(drawable));
             }
-            Message::DropGroup { group } => drop(self.renderers.remove(&group)),
+            Message::DropGroup { group } => self.drop_group(group),
             Message::Frame { group, drawable, frame, end, handed_over } => {
                 self.frame(group, &drawable, frame, end);
                 if end != End::Continued {
@@ -292,13 +292,23 @@ impl State {
         Some(renderer)
     }
 
+    /// Drawables outlive the share group that drew to them last, and what they show with them.
+    fn drop_group(&mut self, group: u64) {
+        let Some(mut renderer) = self.renderers.remove(&group) else { return };
+        for (drawable, window) in self.windows.iter_mut().filter(|(_, window)| window.group == Some(group)) {
+            window.group = None;
+            window.left = renderer.give_up(*drawable);
+        }
+    }
+
     /// Takes what a drawable shows to a share group's renderer, if another group drew to it last.
     fn carry(&mut self, drawable: u64, group: u64) {
-        let former = self.windows.get(&drawable).and_then(|window| window.group).filter(|last| *last != group);
-        let former = former.and_then(|former| self.renderers.get_mut(&former));
-        let carried = former.and_then(|former| former.give_up(drawable));
-        let renderer = self.renderers.get_mut(&group);
-        if let (Some(carried), Some(renderer)) = (carried, renderer)
+        let Some(window) = self.windows.get_mut(&drawable).filter(|window| window.group != Some(group)) else {
+            return;
+        };
+        let former = window.group.and_then(|former| self.renderers.get_mut(&former));
+        let carried = window.left.take().or_else(|| former?.give_up(drawable));
+        if let (Some(carried), Some(renderer)) = (carried, self.renderers.get_mut(&group))
             && let Err(error) = renderer.take_over(drawable, carried)
         {
             tracing::error!("a drawable begins anew: {error}");

@@ -1,9 +1,9 @@
 //! Drawables of the render thread: windows with their pictures.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use afterglow_gpu::{Gpu, GpuError, Presented, Swapchain};
-use afterglow_render::Renderer;
+use afterglow_render::{Carried, Renderer};
 
 use crate::drawable::Surface;
 use crate::pace::Pace;
@@ -14,11 +14,16 @@ pub(crate) struct Window {
     surface: Surface,
     /// The share group that drew to it last.
     pub(crate) group: Option<u64>,
+    /// What it shows, if that group is gone.
+    pub(crate) left: Option<Carried>,
     pub(crate) pace: Pace,
     swapchain: Option<Swapchain>,
-    /// There is no way to show anything in it; that has been logged.
-    has_failed: bool,
+    /// When nothing could be shown in it; that has been logged.
+    failed_at: Option<Instant>,
 }
+
+/// How long a window in which nothing could be shown is left alone.
+const PAUSE: Duration = Duration::from_secs(1);
 
 /// How a picture is to be shown.
 #[derive(Clone, Copy)]
@@ -40,7 +45,14 @@ impl Wanted {
 
 impl Window {
     pub(crate) fn new(surface: Surface) -> Self {
-        Self { surface, group: None, pace: Pace::new(Instant::now()), swapchain: None, has_failed: false }
+        Self {
+            surface,
+            group: None,
+            left: None,
+            pace: Pace::new(Instant::now()),
+            swapchain: None,
+            failed_at: None,
+        }
     }
 
     /// Shows what a renderer, with this drawable selected, has drawn. Returns the window's size.
@@ -51,17 +63,20 @@ impl Window {
         renderer: &mut Renderer,
         wanted: Wanted,
     ) -> Option<(u32, u32)> {
-        if self.has_failed || self.surface == Surface::None {
+        if self.surface == Surface::None || self.failed_at.is_some_and(|at| at.elapsed() < PAUSE) {
             return None;
         }
         match self.show(gpu, servers, renderer, wanted) {
-            Ok(size) => size,
+            Ok(size) => {
+                self.failed_at = None;
+                size
+            }
             Err(error) => {
                 // Programs destroy windows whose last pictures are still to be shown.
-                if self.is_there(servers) {
+                if self.failed_at.is_none() && self.is_there(servers) {
                     tracing::error!("nothing can be shown in a window: {error}");
                 }
-                self.has_failed = true;
+                self.failed_at = Some(Instant::now());
                 self.swapchain = None;
                 None
             }

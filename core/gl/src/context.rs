@@ -99,7 +99,8 @@ impl Context {
     /// glGetError.
     pub fn get_error(&mut self) -> u32 {
         if self.in_begin() {
-            // Specification 2.5: between Begin and End the result is undefined and no error is recorded.
+            // Not among the commands that are allowed there (2.6.3); the error is for after glEnd.
+            self.record_error(GL_INVALID_OPERATION);
             return GL_NO_ERROR;
         }
         std::mem::replace(&mut self.error, GL_NO_ERROR)

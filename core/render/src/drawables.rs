@@ -75,7 +75,7 @@ impl Renderer {
             self.settle()?;
             Ok(Carried {
                 target: std::mem::replace(&mut self.target, Target::new(&self.gpu, [1, 1])?),
-                accumulator: std::mem::replace(&mut self.accumulator, Accumulator::new(&self.gpu)?),
+                accumulator: std::mem::replace(&mut self.accumulator, Accumulator::new(&self.gpu)),
                 swaps: self.swaps,
             })
         });
@@ -108,14 +108,10 @@ impl Renderer {
     }
 
     fn new_seat(&self) -> Result<Seat, RenderError> {
-        let tracer = match &self.tracer {
-            Some(tracer) => Tracer::new(&self.gpu, &self.table, tracer.options.clone())?,
-            None => None,
-        };
         Ok(Seat {
             target: Target::new(&self.gpu, [1, 1])?,
-            accumulator: Accumulator::new(&self.gpu)?,
-            tracer,
+            accumulator: Accumulator::new(&self.gpu),
+            tracer: self.tracer.as_ref().map(|tracer| tracer.beside(&self.gpu)),
             swaps: 0,
         })
     }

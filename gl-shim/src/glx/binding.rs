@@ -13,7 +13,7 @@ use super::contexts::{self, GlxContext};
 use super::drawables::{self, GlxDrawable, Kind};
 use super::errors::Fault;
 use super::xlib::{Display, Xid};
-use super::{displays, pixmaps};
+use super::{displays, pixmaps, render};
 use crate::boundary::guarded;
 use crate::current;
 
@@ -93,6 +93,7 @@ impl Binding {
             self.publish(pixmap);
         } else if shows_at_once {
             gl.hand_over_picture();
+            render::note_picture();
             if let Some(target) = self.draw.target() {
                 target.present();
                 let (width, height) = target.size();
@@ -203,6 +204,7 @@ pub fn swap(display: *mut Display, drawable: Xid) {
                 return binding.flush(gl);
             }
             gl.swap_buffers();
+            render::note_picture();
             if let Kind::Pixmap { pixmap } = binding.draw.kind {
                 binding.publish(pixmap);
             }

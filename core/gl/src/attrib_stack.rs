@@ -254,6 +254,9 @@ impl Context {
 
     /// glPushClientAttrib.
     pub fn push_client_attrib(&mut self, mask: u32) {
+        if self.refuses_in_begin() {
+            return;
+        }
         if self.stacks.saved_client.len() >= limits::ATTRIB_STACK {
             return self.record_error(GL_STACK_OVERFLOW);
         }
@@ -264,6 +267,9 @@ impl Context {
 
     /// glPopClientAttrib.
     pub fn pop_client_attrib(&mut self) {
+        if self.refuses_in_begin() {
+            return;
+        }
         let Some(saved) = self.stacks.saved_client.pop() else {
             return self.record_error(GL_STACK_UNDERFLOW);
         };

@@ -143,6 +143,15 @@ impl Context {
         self.emitter.dirty |= what;
     }
 
+    /// Whether a command that is not allowed between Begin and End comes there; an error if so.
+    pub(crate) fn refuses_in_begin(&mut self) -> bool {
+        let refuses = self.in_begin();
+        if refuses {
+            self.record_error(GL_INVALID_OPERATION);
+        }
+        refuses
+    }
+
     #[inline]
     pub(crate) fn in_begin(&self) -> bool {
         self.immediate.mode.is_some()

@@ -331,6 +331,9 @@ impl Context {
 
     /// glGetPixelMap.
     pub fn get_pixel_map(&mut self, map: u32) -> Vec<f32> {
+        if self.refuses_in_begin() {
+            return Vec::new();
+        }
         match self.transfer.maps.get(map) {
             Ok(values) => values.to_vec(),
             Err(error) => {
@@ -347,6 +350,9 @@ impl Context {
 
     /// glGetPolygonStipple into the program's memory, to lie there as glPixelStore says.
     pub fn get_polygon_stipple_image(&mut self, data: &mut [u8]) {
+        if self.refuses_in_begin() {
+            return;
+        }
         let bits: Vec<u8> = (0..1024).map(|i| self.state.polygon_stipple[i / 8] >> (7 - i % 8) & 1).collect();
         let packing = self.stacks.pixel_store.pack;
         let result = PixelLayout::from_gl(GL_STENCIL_INDEX, GL_BITMAP)
@@ -357,6 +363,9 @@ impl Context {
 
     /// glGetClipPlane, in eye coordinates; `None` after an error.
     pub fn get_clip_plane(&mut self, plane: u32) -> Option<[f64; 4]> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let planes = &self.state.transform.clip_planes;
         let equation = planes.get(plane.wrapping_sub(GL_CLIP_PLANE0) as usize).copied();
         if equation.is_none() {
@@ -367,6 +376,9 @@ impl Context {
 
     /// glGetString.
     pub fn get_string(&mut self, name: u32) -> Option<&'static str> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         match name {
             GL_VENDOR => Some("Afterglow"),
             GL_RENDERER => Some("Afterglow"),

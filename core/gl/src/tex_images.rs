@@ -181,6 +181,9 @@ impl Context {
 
     /// glGetTexLevelParameter; `None` after an error.
     pub fn get_tex_level_parameter(&mut self, target: u32, level: i32, pname: u32) -> Option<i32> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let value = ImageTarget::from_gl(target)
             .and_then(|target| self.image_texture(target).lock().level_parameter(target.face, level, pname));
         value.map_err(|error| self.record_error(error)).ok()

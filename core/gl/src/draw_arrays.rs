@@ -137,7 +137,7 @@ impl Context {
             return false;
         }
         if self.in_begin() {
-            self.record_error(GL_INVALID_OPERATION);
+            self.refuse();
             return false;
         }
         true

@@ -7,7 +7,7 @@
 
 #include "common.h"
 
-#define MOST_GROWTH 8192 /* KiB */
+#define MOST_GROWTH 16384 /* KiB */
 
 static void one_context(Display *display, GLXContext shared, unsigned i) {
     XVisualInfo *info = visual(display, i % 4 != 0);
@@ -55,6 +55,13 @@ static void one_display(unsigned i) {
     XCloseDisplay(display);
 }
 
+/* Waits until everything is drawn. */
+static void all_drawn(Display *display, struct window window, GLXContext context) {
+    glXMakeCurrent(display, window.id, context);
+    glFinish();
+    glXMakeCurrent(display, None, NULL);
+}
+
 int main(int count, char **arguments) {
     int is_displays = count > 1 && !strcmp(arguments[1], "displays");
     unsigned rounds = count > 2 ? (unsigned)atoi(arguments[2]) : 1000;
@@ -75,6 +82,7 @@ int main(int count, char **arguments) {
     double begun = now();
     for (unsigned i = 0; i < rounds; i++) {
         if (i == rounds / 10) {
+            all_drawn(display, window, shared);
             memory = status("VmRSS"), threads = status("Threads"), open_files = files();
         }
         if (is_displays)
@@ -82,8 +90,7 @@ int main(int count, char **arguments) {
         else
             one_context(display, shared, i);
     }
-    glXMakeCurrent(display, window.id, shared);
-    glFinish();
+    all_drawn(display, window, shared);
     long grown = status("VmRSS") - memory, more_threads = status("Threads") - threads;
     int more_files = files() - open_files;
     printf("%u %s in %.1f s: %+ld KiB, %+ld threads, %+d files\n", rounds, is_displays ? "displays" : "contexts",

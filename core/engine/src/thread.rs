@@ -303,7 +303,8 @@ impl State {
 
     /// Takes what a drawable shows to a share group's renderer, if another group drew to it last.
     fn carry(&mut self, drawable: u64, group: u64) {
-        let Some(window) = self.windows.get_mut(&drawable).filter(|window| window.group != Some(group)) else {
+        let Some(window) = self.windows.get_mut(&drawable).filter(|window| window.group != Some(group))
+        else {
             return;
         };
         let former = window.group.and_then(|former| self.renderers.get_mut(&former));

@@ -56,7 +56,8 @@ impl Output {
 fn is_cleared(frame: &Frame) -> bool {
     let (width, height) = (frame.size.0 as i32, frame.size.1 as i32);
     let covers = |scissor: &Rect| {
-        let (right, top) = (scissor.x.saturating_add(scissor.width), scissor.y.saturating_add(scissor.height));
+        let (right, top) =
+            (scissor.x.saturating_add(scissor.width), scissor.y.saturating_add(scissor.height));
         scissor.x <= 0 && scissor.y <= 0 && right >= width && top >= height
     };
     frame.operations.iter().any(|operation| match operation {

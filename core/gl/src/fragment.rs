@@ -182,8 +182,17 @@ impl Context {
 
     pub(crate) fn exec_draw_buffer(&mut self, buffer: u32) {
         match buffer {
-            GL_NONE | GL_FRONT_LEFT | GL_BACK_LEFT | GL_FRONT | GL_BACK | GL_LEFT | GL_FRONT_AND_BACK
-            | GL_FRONT_RIGHT | GL_BACK_RIGHT | GL_RIGHT | GL_AUX0..=GL_AUX3 => {
+            GL_NONE
+            | GL_FRONT_LEFT
+            | GL_BACK_LEFT
+            | GL_FRONT
+            | GL_BACK
+            | GL_LEFT
+            | GL_FRONT_AND_BACK
+            | GL_FRONT_RIGHT
+            | GL_BACK_RIGHT
+            | GL_RIGHT
+            | GL_AUX0..=GL_AUX3 => {
                 if self.has_buffer(buffer) {
                     self.note_draw_buffer();
                     self.state.color.draw_buffer = buffer;

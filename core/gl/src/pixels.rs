@@ -287,8 +287,15 @@ impl Context {
 
     pub(crate) fn exec_read_buffer(&mut self, buffer: u32) {
         match buffer {
-            GL_FRONT_LEFT | GL_BACK_LEFT | GL_FRONT | GL_BACK | GL_LEFT | GL_FRONT_RIGHT | GL_BACK_RIGHT
-            | GL_RIGHT | GL_AUX0..=GL_AUX3 => {
+            GL_FRONT_LEFT
+            | GL_BACK_LEFT
+            | GL_FRONT
+            | GL_BACK
+            | GL_LEFT
+            | GL_FRONT_RIGHT
+            | GL_BACK_RIGHT
+            | GL_RIGHT
+            | GL_AUX0..=GL_AUX3 => {
                 if self.has_buffer(buffer) {
                     self.state.pixel.read_buffer = buffer;
                 }

@@ -65,7 +65,9 @@ impl Context {
                 let depths = unpack_depth(source, transfer)?;
                 Ok(depths.iter().flat_map(|depth| depth.to_ne_bytes()).collect())
             }),
-            false => fetched.texels(copy, |source, transfer| unpack_color(source, transfer, copy.base_format)),
+            false => {
+                fetched.texels(copy, |source, transfer| unpack_color(source, transfer, copy.base_format))
+            }
         };
         Some(ImageUpload { image: copy.image, region: copy.region, texels: texels.ok()? })
     }

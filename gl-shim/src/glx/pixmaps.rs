@@ -27,8 +27,18 @@ pub unsafe fn put(display: *mut Display, pixmap: Xid, (width, height): (u32, u32
     unsafe {
         let data = pixels.as_mut_ptr().cast();
         let none = std::ptr::null_mut();
-        let image =
-            (xlib.create_image)(display, none, depth, Z_PIXMAP, 0, data, columns, rows, PAD, (width * 4) as c_int);
+        let image = (xlib.create_image)(
+            display,
+            none,
+            depth,
+            Z_PIXMAP,
+            0,
+            data,
+            columns,
+            rows,
+            PAD,
+            (width * 4) as c_int,
+        );
         if image.is_null() {
             return;
         }

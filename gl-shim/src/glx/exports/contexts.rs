@@ -31,9 +31,7 @@ pub unsafe extern "C" fn glXCreateContext(
 ) -> *mut c_void {
     // SAFETY: the program vouches for display and visual.
     let context = unsafe {
-        create(display, share, Request::CreateContext, || {
-            of_visual(display, visual).ok_or(Fault::BadValue)
-        })
+        create(display, share, Request::CreateContext, || of_visual(display, visual).ok_or(Fault::BadValue))
     };
     // SAFETY: as above.
     unsafe {

@@ -81,8 +81,10 @@ int main(int count, char **arguments) {
     int open_files = 0;
     double begun = now();
     for (unsigned i = 0; i < rounds; i++) {
-        if (i == rounds / 10) {
+        /* A program that is far ahead of the device has more in memory, of which this is no test. */
+        if (i % 50 == 0)
             all_drawn(display, window, shared);
+        if (i == rounds / 10) {
             memory = status("VmRSS"), threads = status("Threads"), open_files = files();
         }
         if (is_displays)

@@ -10,7 +10,7 @@ use super::xlib::{self, Display, ErrorEvent, Xid};
 
 /// What is wrong, by its code: those of X, and those that GLX adds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(missing_docs, reason = "as in the X protocol and glxproto.h")]
+#[allow(missing_docs, clippy::enum_variant_names, reason = "as in the X protocol and glxproto.h")]
 pub enum Fault {
     BadValue,
     BadXWindow,

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU64, Ordering};
-use std::time::Duration;
 
 use afterglow_gl::backend::End;
 use afterglow_gl::frame::Frame;
 
 use crate::message::Message;
+use crate::queue::Queue;
 use crate::thread::Engine;
 
 /// Where a drawable's picture goes.
@@ -45,44 +45,10 @@ pub(crate) struct Shared {
     pub(crate) is_drawn: AtomicBool,
 }
 
-/// Frames that were handed over and not finished.
-pub(crate) struct Queue {
-    most: u32,
-    pending: parking_lot::Mutex<u32>,
-    finished: parking_lot::Condvar,
-}
-
 /// Frames of a drawable that wait or are being drawn, at most.
 const MOST_PENDING: u32 = 2;
 /// Parts of frames, likewise: a program that never swaps must not fill the memory.
 const MOST_PARTS: u32 = 8;
-/// How often a thread that waits for the render thread looks whether that is still there.
-const LOOK: Duration = Duration::from_millis(100);
-
-impl Queue {
-    fn new(most: u32) -> Self {
-        Self { most, pending: parking_lot::Mutex::default(), finished: parking_lot::Condvar::new() }
-    }
-
-    /// Waits until there is room for a frame, and takes it. Does not wait for a thread that is gone.
-    pub(crate) fn enter(&self, is_alive: impl Fn() -> bool) {
-        if !is_alive() {
-            return;
-        }
-        let mut pending = self.pending.lock();
-        while *pending >= self.most && is_alive() {
-            self.finished.wait_for(&mut pending, LOOK);
-        }
-        *pending += 1;
-    }
-
-    /// A frame is finished.
-    pub(crate) fn leave(&self) {
-        let mut pending = self.pending.lock();
-        *pending = pending.saturating_sub(1);
-        self.finished.notify_all();
-    }
-}
 
 impl Drawable {
     pub(crate) fn new(engine: Engine, id: u64, surface: Surface, size: (u32, u32)) -> Self {
@@ -128,17 +94,22 @@ impl Drawable {
         self.shared.swap_interval.store(interval, Ordering::Relaxed);
     }
 
-    /// Takes note that a frame draws something.
-    pub(crate) fn note_operations(&self, frame: &Frame) {
-        if !frame.operations.is_empty() {
-            self.shared.is_drawn.store(true, Ordering::Release);
+    /// Takes note of a frame, or a part of one, that is handed over. At its end, other than a part's, it is shown.
+    pub(crate) fn note_operations(&self, frame: &Frame, end: End) {
+        match end {
+            End::Continued if frame.operations.is_empty() => {}
+            end => self.shared.is_drawn.store(end == End::Continued, Ordering::Release),
         }
     }
 
-    /// Shows what is drawn without a buffer swap: after glFlush of a drawable with one buffer. Programs flush often;
-    /// where nothing was drawn since, nothing happens.
+    /// Whether something was drawn that has not been shown. From now on it counts as shown.
+    pub fn take_drawn(&self) -> bool {
+        self.shared.is_drawn.swap(false, Ordering::AcqRel)
+    }
+
+    /// Shows what is drawn without a buffer swap. Programs flush often; where nothing was drawn since, nothing happens.
     pub fn present(&self) {
-        if self.shared.is_drawn.swap(false, Ordering::AcqRel) {
+        if self.take_drawn() {
             self.shared.engine.send(Message::Present { drawable: self.clone() });
         }
     }
@@ -149,7 +120,7 @@ impl Shared {
     pub(crate) fn queue_of(&self, end: End) -> &Queue {
         match end {
             End::Swap => &self.queue,
-            End::Continued => &self.parts,
+            End::Continued | End::Over => &self.parts,
         }
     }
 }

@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn the_line_says_what_is_known() {
-        let figures = Figures { rate: 50.0, latency: 12.34 };
+        let figures = Figures { frame: 7, rate: 50.0, latency: 12.34 };
         let mut report = FrameReport::default();
         let text = line(figures, Mode::Raster, (640, 480), &report);
         assert_eq!(text, "50.0 fps  20.0 ms  latency 12.3 ms  raster  640x480");

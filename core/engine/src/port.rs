@@ -6,10 +6,11 @@ use std::time::Instant;
 
 use afterglow_gl::SharedNames;
 use afterglow_gl::backend::{Backend, End, Reply, Request};
-use afterglow_gl::frame::Frame;
+use afterglow_gl::frame::{Frame, PixelBuffer, Rect};
 use parking_lot::Mutex;
 
 use crate::drawable::Drawable;
+use crate::flushed::Flushed;
 use crate::message::Message;
 use crate::thread::Engine;
 
@@ -46,6 +47,7 @@ impl Drop for GroupShared {
 /// window system, which says what is current.
 #[derive(Clone)]
 pub struct Port {
+    id: u64,
     group: ShareGroup,
     bound: Arc<Mutex<Bound>>,
 }
@@ -59,12 +61,33 @@ struct Bound {
 impl Port {
     /// A port for one context of a group, bound to nothing.
     pub fn new(group: &ShareGroup) -> Self {
-        Self { group: group.clone(), bound: Arc::default() }
+        Self { id: group.shared.engine.next_id(), group: group.clone(), bound: Arc::default() }
     }
 
     /// Says what the context draws to and reads from. What has been recorded must have been handed over.
     pub fn bind(&self, draw: Option<Drawable>, read: Option<Drawable>) {
+        if let Some(flushed) = self.engine().flushed().and_then(|frames| frames.take(self.id)) {
+            self.send_part(flushed);
+        }
         *self.bound.lock() = Bound { draw, read };
+    }
+
+    /// Whether pixels are read from something else than is drawn to.
+    pub fn reads_elsewhere(&self) -> bool {
+        self.other_read().is_some()
+    }
+
+    /// The colours of what is drawn to: RGBA, rows from the lowest upward. What has been recorded must have been handed
+    /// over. Nothing without a device.
+    pub fn colors(&mut self) -> Option<Vec<u8>> {
+        let drawable = self.draw()?;
+        let (width, height) = drawable.size();
+        let so_far = self.joined(Frame { size: (width, height), ..Frame::default() });
+        let rect = Rect { x: 0, y: 0, width: width as i32, height: height as i32 };
+        match self.ask(drawable, so_far, Request::Pixels { buffer: PixelBuffer::Color, rect }) {
+            Reply::Color(colors) => Some(colors),
+            _ => None,
+        }
     }
 
     fn engine(&self) -> &Engine {
@@ -88,17 +111,46 @@ impl Port {
     }
 
     fn ask(&self, drawable: Drawable, frame: Frame, request: Request) -> Reply {
-        drawable.note_operations(&frame);
+        self.send_others(&drawable);
+        drawable.note_operations(&frame, End::Continued);
         let (reply, answer) = mpsc::sync_channel(1);
         self.engine().send(Message::Ask { group: self.group.shared.id, drawable, frame, request, reply });
         answer.recv().unwrap_or(Reply::Unavailable)
+    }
+
+    /// A frame with what was flushed of it before.
+    fn joined(&self, mut frame: Frame) -> Frame {
+        match self.engine().flushed().and_then(|frames| frames.take(self.id)) {
+            Some(mut flushed) => {
+                flushed.frame.append(&mut frame);
+                flushed.frame
+            }
+            None => frame,
+        }
+    }
+
+    /// Sends what other contexts flushed that comes before anything more that happens to this drawable.
+    fn send_others(&self, drawable: &Drawable) {
+        if let Some(frames) = self.engine().flushed() {
+            frames.send_others(self.id, self.group.shared.id, drawable, |flushed| self.send_part(flushed));
+        }
+    }
+
+    fn send_part(&self, flushed: Flushed) {
+        let Flushed { group, drawable, frame, .. } = flushed;
+        let end = End::Continued;
+        drawable.note_operations(&frame, end);
+        drawable.shared.queue_of(end).enter_full();
+        self.engine().send(Message::Frame { group, drawable, frame, end, handed_over: Instant::now() });
     }
 }
 
 impl Backend for Port {
     fn submit(&mut self, frame: Frame, end: End) {
         let Some(drawable) = self.draw() else { return };
-        drawable.note_operations(&frame);
+        self.send_others(&drawable);
+        let frame = self.joined(frame);
+        drawable.note_operations(&frame, end);
         drawable.shared.queue_of(end).enter(|| self.engine().is_alive());
         let (group, handed_over) = (self.group.shared.id, Instant::now());
         self.engine().send(Message::Frame { group, drawable, frame, end, handed_over });
@@ -106,6 +158,7 @@ impl Backend for Port {
 
     fn answer(&mut self, so_far: Frame, request: Request) -> Reply {
         let Some(drawable) = self.draw() else { return Reply::Unavailable };
+        let so_far = self.joined(so_far);
         match (self.other_read(), request) {
             (Some(read), Request::Pixels { .. }) => {
                 self.ask(drawable, so_far, Request::Finish);
@@ -113,6 +166,15 @@ impl Backend for Port {
                 self.ask(read, frame, request)
             }
             _ => self.ask(drawable, so_far, request),
+        }
+    }
+
+    fn flush(&mut self, frame: Frame) {
+        let (Some(drawable), Some(frames)) = (self.draw(), self.engine().flushed()) else { return };
+        let flushed = Flushed { port: self.id, group: self.group.shared.id, drawable, frame };
+        if let Some(too_much) = frames.keep(flushed) {
+            self.send_others(&too_much.drawable);
+            self.send_part(too_much);
         }
     }
 

@@ -99,9 +99,9 @@ impl State {
                 }
                 self.renderers.values_mut().for_each(|renderer| renderer.forget(drawable));
             }
-            Message::DropGroup { group } => drop(self.renderers.remove(&group)),
+            Message::DropGroup { group } => self.drop_group(group),
             Message::Frame { group, drawable, frame, end, handed_over } => {
-                if self.frame(group, &drawable, frame, end) && end == End::Swap {
+                if self.frame(group, &drawable, frame, end) && end != End::Continued {
                     self.present(&drawable);
                     self.note_pace(&drawable, handed_over);
                 }
@@ -163,12 +163,37 @@ impl State {
             let made = self.checked("no renderer", made)?;
             self.renderers.insert(group, made);
         }
+        self.carry(drawable, group);
         let selected = self.renderers.get_mut(&group)?.select(drawable);
         self.checked("no drawable", selected)?;
         if let Some(window) = self.windows.get_mut(&drawable) {
             window.group = Some(group);
         }
         self.renderers.get_mut(&group)
+    }
+
+    /// Drawables outlive the share group that drew to them last, and what they show with them.
+    fn drop_group(&mut self, group: u64) {
+        let Some(mut renderer) = self.renderers.remove(&group) else { return };
+        for (drawable, window) in self.windows.iter_mut().filter(|(_, window)| window.group == Some(group)) {
+            window.group = None;
+            window.left = renderer.give_up(*drawable);
+        }
+    }
+
+    /// Takes what a drawable shows to a share group's renderer, if another group drew to it last.
+    fn carry(&mut self, drawable: u64, group: u64) {
+        let Some(window) = self.windows.get_mut(&drawable).filter(|window| window.group != Some(group))
+        else {
+            return;
+        };
+        let former = window.group.and_then(|former| self.renderers.get_mut(&former));
+        let carried = window.left.take().or_else(|| former?.give_up(drawable));
+        if let (Some(carried), Some(renderer)) = (carried, self.renderers.get_mut(&group))
+            && let Err(error) = renderer.take_over(drawable, carried)
+        {
+            tracing::error!("a drawable begins anew: {error}");
+        }
     }
 
     /// Shows what was drawn to a drawable last.

@@ -10,6 +10,7 @@ use afterglow_render::{Mode, PathtraceOptions};
 use parking_lot::Mutex;
 
 use crate::drawable::{Drawable, Surface};
+use crate::flushed::FlushedFrames;
 use crate::life::{Ending, Life};
 use crate::message::Message;
 use crate::port::ShareGroup;
@@ -50,9 +51,10 @@ pub struct Engine {
 }
 
 struct Shared {
-    sender: Mutex<mpsc::Sender<Message>>,
+    sender: mpsc::Sender<Message>,
     life: Arc<Life>,
     recycled: Arc<Mutex<Vec<Frame>>>,
+    flushed: FlushedFrames,
     /// A forked process has no render thread.
     process: u32,
     last_id: AtomicU64,
@@ -95,9 +97,10 @@ impl Engine {
         })?;
         let device = is_ready.recv().map_err(|_| EngineError::Died)??;
         let shared = Shared {
-            sender: Mutex::new(sender),
+            sender,
             life,
             recycled,
+            flushed: FlushedFrames::default(),
             process: std::process::id(),
             last_id: AtomicU64::new(0),
             device,
@@ -153,15 +156,20 @@ impl Engine {
         self.shared.device_number.load(Ordering::Acquire)
     }
 
-    fn next_id(&self) -> u64 {
+    pub(crate) fn next_id(&self) -> u64 {
         self.shared.last_id.fetch_add(1, Ordering::Relaxed) + 1
     }
 
     /// Sends a message; nobody gets it if the thread is gone.
     pub(crate) fn send(&self, message: Message) {
         if self.is_alive() {
-            let _ = self.shared.sender.lock().send(message);
+            let _ = self.shared.sender.send(message);
         }
+    }
+
+    /// What programs flushed; nothing where nobody will draw it. In a forked process the lock may be held for ever.
+    pub(crate) fn flushed(&self) -> Option<&FlushedFrames> {
+        self.is_alive().then_some(&self.shared.flushed)
     }
 
     /// An empty frame, with the memory of an earlier one where possible.

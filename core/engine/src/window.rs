@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use afterglow_gpu::{Gpu, GpuError, Overlay, Presented, Swapchain};
-use afterglow_render::Renderer;
+use afterglow_render::{Carried, Renderer};
 
 use crate::blanks::Blanks;
 use crate::canvas::Canvas;
@@ -17,17 +17,22 @@ const LOG_PERIOD: Duration = Duration::from_secs(5);
 /// How often those in a window change.
 const HUD_PERIOD: Duration = Duration::from_millis(500);
 
+/// How long a window in which nothing could be shown is left alone.
+const PAUSE: Duration = Duration::from_secs(1);
+
 /// A drawable.
 pub(crate) struct Window {
     surface: Surface,
     /// The share group that drew to it last.
     pub(crate) group: Option<u64>,
+    /// What it shows, if that group is gone.
+    pub(crate) left: Option<Carried>,
     logged: Pace,
     hud: Hud,
     output: Option<Output>,
     blanks: Blanks,
-    /// There is no way to show anything in it; that has been logged.
-    has_failed: bool,
+    /// When nothing could be shown in it; that has been logged.
+    failed_at: Option<Instant>,
 }
 
 /// How pictures get to a window.
@@ -78,11 +83,12 @@ impl Window {
         Self {
             surface,
             group: None,
+            left: None,
             logged: Pace::new(now, LOG_PERIOD),
             hud: Hud { pace: Pace::new(now, HUD_PERIOD), line: None, overlay: None },
             output: None,
             blanks: Blanks::default(),
-            has_failed: false,
+            failed_at: None,
         }
     }
 
@@ -90,6 +96,7 @@ impl Window {
     /// is drawn.
     pub(crate) fn leave_device(&mut self) {
         self.group = None;
+        self.left = None;
         self.hud.overlay = None;
         if let Some(Output::Swapchain(_)) = self.output {
             self.output = None;
@@ -129,7 +136,7 @@ impl Window {
     /// Shows what was drawn. Returns the window's size.
     pub(crate) fn present(&mut self, stage: Stage<'_>, wanted: Wanted) -> Option<(u32, u32)> {
         let Surface::X11 { display, window } = self.surface.clone() else { return None };
-        if self.has_failed {
+        if self.failed_at.is_some_and(|at| at.elapsed() < PAUSE) {
             return None;
         }
         if self.output.as_ref().is_some_and(|output| !wanted.is_served_by(output)) {
@@ -142,6 +149,7 @@ impl Window {
         };
         match shown {
             Ok(size) => {
+                self.failed_at = None;
                 let is_paced = matches!((&self.output, size), (Some(Output::Swapchain(_)), Some(_)));
                 if wanted.waits_for_blank && !is_paced {
                     self.blanks.wait();
@@ -155,10 +163,10 @@ impl Window {
             }
             Err(error) => {
                 // Programs destroy windows whose last pictures are still to be shown.
-                if servers.has_window(&display, window) {
+                if self.failed_at.is_none() && servers.has_window(&display, window) {
                     tracing::error!("nothing can be shown in a window: {error}");
                 }
-                self.has_failed = true;
+                self.failed_at = Some(Instant::now());
                 self.close(servers);
                 None
             }

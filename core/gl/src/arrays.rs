@@ -168,6 +168,9 @@ impl Context {
         kinds: &[u32],
         pointer: Pointer,
     ) {
+        if self.refuses_in_begin() {
+            return;
+        }
         let (size, kind, stride) = shape;
         if !sizes.contains(&size) || stride < 0 {
             return self.record_error(GL_INVALID_VALUE);
@@ -242,6 +245,9 @@ impl Context {
     }
 
     fn switch_array(&mut self, array: u32, on: bool) {
+        if self.refuses_in_begin() {
+            return;
+        }
         match self.client.slot_of(array) {
             Some(slot) => self.client.arrays[slot].enabled = on,
             None => self.record_error(GL_INVALID_ENUM),
@@ -276,6 +282,9 @@ impl Context {
 
     /// glInterleavedArrays (specification 2.8, table 2.5).
     pub fn interleaved_arrays(&mut self, format: u32, stride: i32, pointer: Pointer) {
+        if self.refuses_in_begin() {
+            return;
+        }
         // Components of texture coordinates, colour, vertex; colour type; normals.
         let (texture, color, color_kind, normal, vertex) = match format {
             GL_V2F => (0, 0, 0, false, 2),

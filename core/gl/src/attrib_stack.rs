@@ -134,6 +134,11 @@ impl Context {
         if self.stacks.saved.len() >= limits::ATTRIB_STACK {
             return self.record_error(GL_STACK_OVERFLOW);
         }
+        let saved = self.save(mask);
+        self.stacks.saved.push(saved);
+    }
+
+    fn save(&mut self, mask: u32) -> Saved {
         self.sync_color_material();
         let textures = (mask & GL_TEXTURE_BIT != 0).then(|| {
             let save = |u: usize, t: usize| {
@@ -142,18 +147,26 @@ impl Context {
             };
             Box::new(std::array::from_fn(|u| std::array::from_fn(|t| save(u, t))))
         });
-        self.stacks.saved.push(Saved {
-            mask,
-            state: self.state.clone(),
-            transfer: self.transfer.modes,
-            textures,
-        });
+        Saved { mask, state: self.state.clone(), transfer: self.transfer.modes, textures }
+    }
+
+    /// glXCopyContext: takes another context's groups of state, as glPopAttrib would. Textures are only taken from a
+    /// context that shares names.
+    pub fn copy_state(&mut self, from: &mut Context, mask: u32) {
+        let is_shared = std::sync::Arc::ptr_eq(&self.shared, &from.shared);
+        let saved = from.save(if is_shared { mask } else { mask & !GL_TEXTURE_BIT });
+        self.restore_saved(saved);
     }
 
     pub(crate) fn exec_pop_attrib(&mut self) {
         let Some(saved) = self.stacks.saved.pop() else {
             return self.record_error(GL_STACK_UNDERFLOW);
         };
+        self.restore_saved(saved);
+    }
+
+    fn restore_saved(&mut self, saved: Saved) {
+        self.note_draw_buffer();
         self.restore(saved.mask, saved.state);
         if saved.mask & GL_PIXEL_MODE_BIT != 0 {
             self.transfer.modes = saved.transfer;
@@ -241,6 +254,9 @@ impl Context {
 
     /// glPushClientAttrib.
     pub fn push_client_attrib(&mut self, mask: u32) {
+        if self.refuses_in_begin() {
+            return;
+        }
         if self.stacks.saved_client.len() >= limits::ATTRIB_STACK {
             return self.record_error(GL_STACK_OVERFLOW);
         }
@@ -251,6 +267,9 @@ impl Context {
 
     /// glPopClientAttrib.
     pub fn pop_client_attrib(&mut self) {
+        if self.refuses_in_begin() {
+            return;
+        }
         let Some(saved) = self.stacks.saved_client.pop() else {
             return self.record_error(GL_STACK_UNDERFLOW);
         };

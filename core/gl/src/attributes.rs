@@ -154,7 +154,7 @@ impl Context {
     /// glRect (specification 2.10).
     pub fn rect(&mut self, [x1, y1]: [f32; 2], [x2, y2]: [f32; 2]) {
         if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+            return self.refuse();
         }
         self.begin(GL_POLYGON);
         for [x, y] in [[x1, y1], [x2, y1], [x2, y2], [x1, y2]] {

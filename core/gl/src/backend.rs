@@ -5,8 +5,10 @@ use crate::frame::{Frame, ImageKey, PixelBuffer, Rect, Region};
 /// Why a frame is handed over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// The program swapped buffers: the frame is complete.
+    /// The program swapped buffers, or flushed a whole picture in a single buffer: the frame is complete.
     Swap,
+    /// The program flushed what it drew over the picture that a single buffer shows.
+    Over,
     /// The frame goes on: what has been recorded is handed over early (too many bytes, a flush of
     /// single-buffered drawing, another context's turn).
     Continued,
@@ -59,6 +61,11 @@ pub trait Backend: Send {
 
     /// Takes the operations so far of a frame that goes on, and answers a question about them.
     fn answer(&mut self, so_far: Frame, request: Request) -> Reply;
+
+    /// Takes the operations so far of a frame that goes on, which other contexts are to see from now on.
+    fn flush(&mut self, so_far: Frame) {
+        self.submit(so_far, End::Continued);
+    }
 
     /// Waits until all that was handed over is done.
     fn wait(&mut self) {}

@@ -12,6 +12,8 @@ macro_rules! commands {
         #[derive(Debug, Clone)]
         pub enum Command {
             $($variant { $($arg: $ty,)* },)*
+            /// What was not allowed between Begin and End: an error when the list is executed (specification 5.4).
+            Refused,
         }
 
         #[allow(clippy::too_many_arguments, reason = "some commands have so many")]
@@ -20,8 +22,7 @@ macro_rules! commands {
                 $(#[$meta])*
                 pub fn $method(&mut self, $($arg: $ty),*) {
                     if self.in_begin() {
-                        self.record_error(GL_INVALID_OPERATION);
-                        return;
+                        return self.refuse();
                     }
                     if let Some(list) = &mut self.list {
                         list.push(Command::$variant { $($arg: $arg.clone(),)* });
@@ -33,10 +34,23 @@ macro_rules! commands {
                 }
             )*
 
+            /// The error of a command between Begin and End, or its record.
+            #[cold]
+            pub(crate) fn refuse(&mut self) {
+                if let Some(list) = &mut self.list {
+                    list.push(Command::Refused);
+                    if !list.executes {
+                        return;
+                    }
+                }
+                self.record_error(GL_INVALID_OPERATION);
+            }
+
             /// Executes a recorded command.
             pub(crate) fn execute(&mut self, command: &Command) {
                 match command {
                     $(Command::$variant { $($arg,)* } => self.$exec($($arg.clone()),*),)*
+                    Command::Refused => self.record_error(GL_INVALID_OPERATION),
                 }
             }
         }

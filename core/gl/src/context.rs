@@ -8,8 +8,9 @@ use crate::arrays::ClientState;
 use crate::attrib_stack::AttribStacks;
 use crate::backend::{Backend, End, Reply, Request};
 use crate::draw_arrays::RangeCache;
+use crate::drawable::Output;
 use crate::emit::{Dirty, Emitter};
-use crate::frame::{Frame, Rect};
+use crate::frame::Frame;
 use crate::immediate::Immediate;
 use crate::lists::ListBuilder;
 use crate::matrices::Matrices;
@@ -34,7 +35,7 @@ pub struct Context {
     pub(crate) backend: Box<dyn Backend>,
     pub(crate) shared: SharedNames,
     pub(crate) error: u32,
-    pub(crate) size: Option<(u32, u32)>,
+    pub(crate) output: Output,
     pub(crate) frame: Frame,
     /// The device that images are on.
     pub(crate) device: u64,
@@ -73,7 +74,7 @@ impl Context {
             backend,
             shared,
             error: GL_NO_ERROR,
-            size: None,
+            output: Output::default(),
             frame: Frame { device, ..Frame::default() },
             device,
             emitter: Emitter::default(),
@@ -101,42 +102,11 @@ impl Context {
         Arc::clone(&self.shared)
     }
 
-    /// Says how large the drawable is. The first call sets viewport and scissor to all of it.
-    pub fn set_drawable(&mut self, width: u32, height: u32) {
-        if self.size.is_none() {
-            let rect = Rect { x: 0, y: 0, width: width as i32, height: height as i32 };
-            self.state.viewport.rect = rect;
-            self.state.scissor = rect;
-            self.dirty(Dirty::VIEWPORT);
-        }
-        self.size = Some((width, height));
-        self.frame.size = (width, height);
-    }
-
-    /// Size of the drawable, pixels.
-    pub fn drawable(&self) -> (u32, u32) {
-        self.size.unwrap_or((0, 0))
-    }
-
-    /// glXSwapBuffers: the frame is complete.
-    pub fn swap_buffers(&mut self) {
-        self.hand_over(End::Swap);
-    }
-
-    /// Hands over what has been recorded of a frame that goes on: before another context or drawable becomes current,
-    /// or where others must see it. Whether there was anything. Between Begin and End, nothing is handed over.
-    pub fn hand_over_so_far(&mut self) -> bool {
-        let has_any = !self.in_begin() && !self.frame.operations.is_empty();
-        if has_any {
-            self.hand_over(End::Continued);
-        }
-        has_any
-    }
-
     /// glGetError.
     pub fn get_error(&mut self) -> u32 {
         if self.in_begin() {
-            // Specification 2.5: between Begin and End the result is undefined and no error is recorded.
+            // Not among the commands that are allowed there (2.6.3); the error is for after glEnd.
+            self.record_error(GL_INVALID_OPERATION);
             return GL_NO_ERROR;
         }
         std::mem::replace(&mut self.error, GL_NO_ERROR)
@@ -179,6 +149,15 @@ impl Context {
         self.emitter.dirty |= what;
     }
 
+    /// Whether a command that is not allowed between Begin and End comes there; an error if so.
+    pub(crate) fn refuses_in_begin(&mut self) -> bool {
+        let refuses = self.in_begin();
+        if refuses {
+            self.record_error(GL_INVALID_OPERATION);
+        }
+        refuses
+    }
+
     #[inline]
     pub(crate) fn in_begin(&self) -> bool {
         self.immediate.mode.is_some()
@@ -186,23 +165,23 @@ impl Context {
 
     /// Hands the frame over and starts the next.
     pub(crate) fn hand_over(&mut self, end: End) {
-        let next = self.next_frame();
-        let frame = std::mem::replace(&mut self.frame, next);
+        self.output.note(&self.frame, end);
+        let frame = self.take_frame();
         self.backend.submit(frame, end);
         self.follow_device();
     }
 
     /// Asks the backend about the operations so far; the frame goes on.
     pub(crate) fn ask(&mut self, request: Request) -> Reply {
-        let next = self.next_frame();
-        let frame = std::mem::replace(&mut self.frame, next);
+        self.output.note(&self.frame, End::Continued);
+        let frame = self.take_frame();
         let reply = self.backend.answer(frame, request);
         self.follow_device();
         reply
     }
 
     /// Takes note, as a frame begins, if images are on another device now.
-    fn follow_device(&mut self) {
+    pub(crate) fn follow_device(&mut self) {
         let device = self.backend.device();
         self.frame.device = device;
         if device != self.device {
@@ -211,11 +190,12 @@ impl Context {
         }
     }
 
-    fn next_frame(&mut self) -> Frame {
+    /// What has been recorded; the next frame begins.
+    pub(crate) fn take_frame(&mut self) -> Frame {
         let mut next = self.backend.recycle();
         next.clear();
         next.size = self.drawable();
         self.emitter.start_frame();
-        next
+        std::mem::replace(&mut self.frame, next)
     }
 }

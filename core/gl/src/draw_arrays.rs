@@ -112,6 +112,9 @@ impl Context {
 
     /// glMultiDrawArrays.
     pub fn multi_draw_arrays(&mut self, mode: u32, firsts: &[i32], counts: &[i32]) {
+        if counts.iter().any(|count| *count < 0) {
+            return self.record_error(GL_INVALID_VALUE);
+        }
         for (&first, &count) in firsts.iter().zip(counts).filter(|(_, c)| **c > 0) {
             self.draw_arrays(mode, first, count);
         }
@@ -119,6 +122,9 @@ impl Context {
 
     /// glMultiDrawElements.
     pub fn multi_draw_elements(&mut self, mode: u32, counts: &[i32], kind: u32, indices: Vec<Pointer>) {
+        if counts.iter().any(|count| *count < 0) {
+            return self.record_error(GL_INVALID_VALUE);
+        }
         for (&count, pointer) in counts.iter().zip(indices).filter(|(c, _)| **c > 0) {
             self.draw_elements(mode, count, kind, pointer);
         }
@@ -148,7 +154,7 @@ impl Context {
             return false;
         }
         if self.in_begin() {
-            self.record_error(GL_INVALID_OPERATION);
+            self.refuse();
             return false;
         }
         true

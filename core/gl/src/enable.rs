@@ -97,6 +97,9 @@ impl Context {
 
     /// glIsEnabled; `None` (and an error) for what is no capability.
     pub fn is_enabled(&mut self, cap: u32) -> bool {
+        if self.refuses_in_begin() {
+            return false;
+        }
         let unit = &self.state.texture.units[self.state.texture.active];
         let bit = |bits: u8, bit: usize| bits & (1 << bit) != 0;
         match place(cap) {

@@ -182,13 +182,22 @@ impl Context {
 
     pub(crate) fn exec_draw_buffer(&mut self, buffer: u32) {
         match buffer {
-            GL_NONE | GL_FRONT_LEFT | GL_BACK_LEFT | GL_FRONT | GL_BACK | GL_LEFT | GL_FRONT_AND_BACK => {
-                self.state.color.draw_buffer = buffer;
-                self.dirty(Dirty::RASTER);
-            }
-            // No stereo and no auxiliary buffers.
-            GL_FRONT_RIGHT | GL_BACK_RIGHT | GL_RIGHT | GL_AUX0..=GL_AUX3 => {
-                self.record_error(GL_INVALID_OPERATION);
+            GL_NONE
+            | GL_FRONT_LEFT
+            | GL_BACK_LEFT
+            | GL_FRONT
+            | GL_BACK
+            | GL_LEFT
+            | GL_FRONT_AND_BACK
+            | GL_FRONT_RIGHT
+            | GL_BACK_RIGHT
+            | GL_RIGHT
+            | GL_AUX0..=GL_AUX3 => {
+                if self.has_buffer(buffer) {
+                    self.note_draw_buffer();
+                    self.state.color.draw_buffer = buffer;
+                    self.dirty(Dirty::RASTER);
+                }
             }
             _ => self.record_error(GL_INVALID_ENUM),
         }

@@ -132,6 +132,7 @@ impl Context {
 
     fn get_limit(&self, pname: u32) -> Option<Value> {
         let limit = |value: usize| ints([value as i32]);
+        let buffers = &self.output.buffers;
         match pname {
             GL_MAX_LIGHTS => limit(LIGHTS),
             GL_MAX_CLIP_PLANES => limit(CLIP_PLANES),
@@ -153,11 +154,15 @@ impl Context {
             GL_NUM_COMPRESSED_TEXTURE_FORMATS => ints([0]),
             GL_COMPRESSED_TEXTURE_FORMATS => Some(Value::Ints(Vec::new())),
             GL_SUBPIXEL_BITS => ints([8]),
-            GL_RED_BITS | GL_GREEN_BITS | GL_BLUE_BITS | GL_ALPHA_BITS | GL_STENCIL_BITS => ints([8]),
-            GL_DEPTH_BITS => ints([24]),
-            GL_ACCUM_RED_BITS | GL_ACCUM_GREEN_BITS | GL_ACCUM_BLUE_BITS | GL_ACCUM_ALPHA_BITS => ints([16]),
+            GL_RED_BITS | GL_GREEN_BITS | GL_BLUE_BITS | GL_ALPHA_BITS => ints([8]),
+            GL_STENCIL_BITS => limit(buffers.stencil.into()),
+            GL_DEPTH_BITS => limit(buffers.depth.into()),
+            GL_ACCUM_RED_BITS | GL_ACCUM_GREEN_BITS | GL_ACCUM_BLUE_BITS | GL_ACCUM_ALPHA_BITS => {
+                limit(buffers.accumulation.into())
+            }
             GL_INDEX_BITS | GL_AUX_BUFFERS | GL_SAMPLE_BUFFERS | GL_SAMPLES => ints([0]),
-            GL_DOUBLEBUFFER | GL_RGBA_MODE => flag(true),
+            GL_DOUBLEBUFFER => flag(buffers.is_double),
+            GL_RGBA_MODE => flag(true),
             GL_STEREO | GL_INDEX_MODE => flag(false),
             GL_ALIASED_POINT_SIZE_RANGE | GL_POINT_SIZE_RANGE => floats(&[1.0, limits::POINT_SIZE_MAX]),
             GL_ALIASED_LINE_WIDTH_RANGE | GL_LINE_WIDTH_RANGE => floats(&[1.0, limits::LINE_WIDTH_MAX]),
@@ -335,6 +340,9 @@ impl Context {
 
     /// glGetPixelMap.
     pub fn get_pixel_map(&mut self, map: u32) -> Vec<f32> {
+        if self.refuses_in_begin() {
+            return Vec::new();
+        }
         match self.transfer.maps.get(map) {
             Ok(values) => values.to_vec(),
             Err(error) => {
@@ -351,6 +359,9 @@ impl Context {
 
     /// glGetPolygonStipple into the program's memory, to lie there as glPixelStore says.
     pub fn get_polygon_stipple_image(&mut self, data: &mut [u8]) {
+        if self.refuses_in_begin() {
+            return;
+        }
         let bits: Vec<u8> = (0..1024).map(|i| self.state.polygon_stipple[i / 8] >> (7 - i % 8) & 1).collect();
         let packing = self.stacks.pixel_store.pack;
         let result = PixelLayout::from_gl(GL_STENCIL_INDEX, GL_BITMAP)
@@ -361,6 +372,9 @@ impl Context {
 
     /// glGetClipPlane, in eye coordinates; `None` after an error.
     pub fn get_clip_plane(&mut self, plane: u32) -> Option<[f64; 4]> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let planes = &self.state.transform.clip_planes;
         let equation = planes.get(plane.wrapping_sub(GL_CLIP_PLANE0) as usize).copied();
         if equation.is_none() {
@@ -371,6 +385,9 @@ impl Context {
 
     /// glGetString.
     pub fn get_string(&mut self, name: u32) -> Option<&'static str> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         match name {
             GL_VENDOR => Some("Afterglow"),
             GL_RENDERER => Some("Afterglow"),

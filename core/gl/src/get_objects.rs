@@ -30,6 +30,9 @@ impl Context {
 
     /// glGetLight.
     pub fn get_light(&mut self, light: u32, pname: u32) -> Option<Value> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let index = light.wrapping_sub(GL_LIGHT0) as usize;
         let value = self.state.lighting.lights.get(index).and_then(|light| {
             Some(match pname {
@@ -51,6 +54,9 @@ impl Context {
 
     /// glGetMaterial.
     pub fn get_material(&mut self, face: u32, pname: u32) -> Option<Value> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         self.sync_color_material();
         let index = match face {
             GL_FRONT => 0,
@@ -72,6 +78,9 @@ impl Context {
 
     /// glGetTexEnv.
     pub fn get_tex_env(&mut self, target: u32, pname: u32) -> Option<Value> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let unit = &self.state.texture.units[self.state.texture.active];
         let words = unit.words;
         let source = |word: u32| match word {
@@ -120,6 +129,9 @@ impl Context {
 
     /// glGetTexGen.
     pub fn get_tex_gen(&mut self, coord: u32, pname: u32) -> Option<Value> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let unit = &self.state.texture.units[self.state.texture.active];
         let c = coord.wrapping_sub(GL_S) as usize;
         let value = match pname {
@@ -134,6 +146,9 @@ impl Context {
 
     /// glGetTexParameter.
     pub fn get_tex_parameter(&mut self, target: u32, pname: u32) -> Option<Value> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let index = Textures::target_index(target);
         let bound = &self.textures.bound[self.state.texture.active];
         let value = index.and_then(|index| bound[index].1.lock().get_parameter(pname));
@@ -193,6 +208,9 @@ impl Context {
 
     /// glGetPointer: the address that was given, or the offset in a buffer. `None` after an error.
     pub fn get_pointer(&mut self, pname: u32) -> Option<usize> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let texture = Slot::Texture0 as usize + self.client.active_texture.min(TEXTURE_UNITS - 1);
         let slot = match pname {
             GL_VERTEX_ARRAY_POINTER => Slot::Position as usize,

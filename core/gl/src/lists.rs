@@ -236,6 +236,9 @@ impl Context {
 
     /// glIsList.
     pub fn is_list(&mut self, name: u32) -> bool {
+        if self.refuses_in_begin() {
+            return false;
+        }
         self.shared.lock().lists.contains_key(&name)
     }
 

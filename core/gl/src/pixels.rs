@@ -16,6 +16,7 @@ use crate::pixel::{
     Extent, Luminance, Packing, PixelLayout, PixelSource, PixelTarget, image_size, pack_color, pack_depth,
     pack_stencil, unpack_color, unpack_depth, unpack_mask, unpack_stencil,
 };
+use crate::read_elsewhere::{self, Fetched};
 use crate::state::Cap;
 
 /// glRenderMode.
@@ -214,6 +215,9 @@ impl Context {
         if !self.state.current.raster.valid || self.mode != RenderMode::Render {
             return;
         }
+        if self.output.reads_elsewhere {
+            return self.copy_fetched_pixels(buffer, Rect { x, y, width, height });
+        }
         let (fixed, viewport, bindings, environment, current) = self.validate_raster();
         let (window, zoom) = (self.state.current.raster.window, self.state.pixel.zoom);
         self.frame.operations.push(Operation::CopyPixels(Box::new(PixelCopy {
@@ -228,6 +232,16 @@ impl Context {
             environment,
             current,
         })));
+    }
+
+    fn copy_fetched_pixels(&mut self, buffer: PixelBuffer, rect: Rect) {
+        let Some(Fetched { format, kind, data }) = self.fetch(buffer, rect) else { return };
+        let size = (rect.width, rect.height);
+        let call = DrawPixelsCall { size, format, kind, packing: read_elsewhere::packing(), data };
+        match self.pixel_content(&call) {
+            Ok(content) => self.push_pixels(content, size, [0.0; 2], self.state.pixel.zoom),
+            Err(error) => self.record_error(error),
+        }
     }
 
     /// glReadPixels into the program's memory.
@@ -273,11 +287,18 @@ impl Context {
 
     pub(crate) fn exec_read_buffer(&mut self, buffer: u32) {
         match buffer {
-            GL_FRONT_LEFT | GL_BACK_LEFT | GL_FRONT | GL_BACK | GL_LEFT => {
-                self.state.pixel.read_buffer = buffer
-            }
-            GL_FRONT_RIGHT | GL_BACK_RIGHT | GL_RIGHT | GL_AUX0..=GL_AUX3 => {
-                self.record_error(GL_INVALID_OPERATION);
+            GL_FRONT_LEFT
+            | GL_BACK_LEFT
+            | GL_FRONT
+            | GL_BACK
+            | GL_LEFT
+            | GL_FRONT_RIGHT
+            | GL_BACK_RIGHT
+            | GL_RIGHT
+            | GL_AUX0..=GL_AUX3 => {
+                if self.has_buffer(buffer) {
+                    self.state.pixel.read_buffer = buffer;
+                }
             }
             _ => self.record_error(GL_INVALID_ENUM),
         }

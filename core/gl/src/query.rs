@@ -12,9 +12,20 @@ use crate::limits;
 #[derive(Debug, Default)]
 pub struct ActiveQuery {
     active: Option<u32>,
-    /// Results that are known, by name.
-    results: HashMap<u32, Option<u32>>,
+    /// By name.
+    queries: HashMap<u32, Query>,
     last: u32,
+}
+
+/// A query.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Query {
+    /// Only its name is taken.
+    Reserved,
+    /// It was begun.
+    Begun,
+    /// Its result is known.
+    Known(u32),
 }
 
 impl Context {
@@ -28,8 +39,8 @@ impl Context {
         let mut fresh = || {
             loop {
                 queries.last = queries.last.wrapping_add(1).max(1);
-                if !queries.results.contains_key(&queries.last) {
-                    queries.results.insert(queries.last, None);
+                if !queries.queries.contains_key(&queries.last) {
+                    queries.queries.insert(queries.last, Query::Reserved);
                     return queries.last;
                 }
             }
@@ -40,13 +51,13 @@ impl Context {
     /// glDeleteQueries.
     pub fn delete_queries(&mut self, names: &[u32]) {
         for name in names {
-            self.queries.results.remove(name);
+            self.queries.queries.remove(name);
         }
     }
 
     /// glIsQuery.
     pub fn is_query(&mut self, name: u32) -> bool {
-        self.queries.results.contains_key(&name)
+        self.queries.queries.get(&name).is_some_and(|query| *query != Query::Reserved)
     }
 
     pub(crate) fn exec_begin_query(&mut self, target: u32, id: u32) {
@@ -57,7 +68,7 @@ impl Context {
             return self.record_error(GL_INVALID_OPERATION);
         }
         self.queries.active = Some(id);
-        self.queries.results.insert(id, None);
+        self.queries.queries.insert(id, Query::Begun);
         self.frame.operations.push(Operation::BeginQuery(id));
     }
 
@@ -85,7 +96,7 @@ impl Context {
 
     /// glGetQueryObject. Waits for the result. `None` after an error.
     pub fn get_query_object(&mut self, id: u32, pname: u32) -> Option<u32> {
-        if !self.queries.results.contains_key(&id) || self.queries.active == Some(id) {
+        if !self.is_query(id) || self.queries.active == Some(id) {
             self.record_error(GL_INVALID_OPERATION);
             return None;
         }
@@ -100,14 +111,14 @@ impl Context {
     }
 
     fn query_result(&mut self, id: u32) -> u32 {
-        if let Some(Some(samples)) = self.queries.results.get(&id) {
+        if let Some(Query::Known(samples)) = self.queries.queries.get(&id) {
             return *samples;
         }
         let samples = match self.ask(Request::Query(id)) {
             Reply::Samples(samples) => samples,
             _ => 0,
         };
-        self.queries.results.insert(id, Some(samples));
+        self.queries.queries.insert(id, Query::Known(samples));
         samples
     }
 }

@@ -145,7 +145,11 @@ impl Context {
         let size = [width, height.unwrap_or(1), 1];
         let definition = ImageDefinition { level, internal_format, size, border };
         let source = CopySource { x, y };
+        let first = self.frame.operations.len();
         let result = texture.lock().copy_image(face, &definition, source, &mut self.frame.operations);
+        if self.output.reads_elsewhere {
+            self.fetch_copies(first);
+        }
         if self.check(result) {
             self.dirty(Dirty::BINDINGS);
         }
@@ -165,7 +169,11 @@ impl Context {
         let Some((texture, face)) = self.copy_target(target) else { return };
         let part = SubImage { level, offset, size: [width, height, 1] };
         let source = CopySource { x, y };
+        let first = self.frame.operations.len();
         let result = texture.lock().copy_sub_image(face, &part, source, &mut self.frame.operations);
+        if self.output.reads_elsewhere {
+            self.fetch_copies(first);
+        }
         if self.check(result) {
             self.dirty(Dirty::BINDINGS);
         }
@@ -173,6 +181,9 @@ impl Context {
 
     /// glGetTexLevelParameter; `None` after an error.
     pub fn get_tex_level_parameter(&mut self, target: u32, level: i32, pname: u32) -> Option<i32> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let value = ImageTarget::from_gl(target)
             .and_then(|target| self.image_texture(target).lock().level_parameter(target.face, level, pname));
         value.map_err(|error| self.record_error(error)).ok()

@@ -17,6 +17,13 @@ pub(crate) struct Seat {
     swaps: u64,
 }
 
+/// What a drawable shows, on its way from one renderer to another of the same device.
+pub struct Carried {
+    target: Target,
+    accumulator: Accumulator,
+    swaps: u64,
+}
+
 impl Renderer {
     /// Chooses what is drawn to, by a number that the caller gives out (not 0). The first choice is the window that the
     /// renderer was made with; a new number is a window of one pixel that the next frame resizes.
@@ -59,6 +66,32 @@ impl Renderer {
         }
     }
 
+    /// Gives away what a drawable shows. Nothing if it is not known here, or the device fails.
+    pub fn give_up(&mut self, drawable: u64) -> Option<Carried> {
+        if self.drawable != drawable && !self.seats.contains_key(&drawable) {
+            return None;
+        }
+        let emptied = self.select(drawable).and_then(|()| {
+            self.settle()?;
+            Ok(Carried {
+                target: std::mem::replace(&mut self.target, Target::new(&self.gpu, [1, 1])?),
+                accumulator: std::mem::replace(&mut self.accumulator, Accumulator::new(&self.gpu)),
+                swaps: self.swaps,
+            })
+        });
+        emptied.map_err(|error| tracing::error!("a drawable is lost: {error}")).ok()
+    }
+
+    /// Goes on with what a drawable shows.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn take_over(&mut self, drawable: u64, carried: Carried) -> Result<(), RenderError> {
+        self.select(drawable)?;
+        (self.target, self.accumulator, self.swaps) = (carried.target, carried.accumulator, carried.swaps);
+        Ok(())
+    }
+
     /// Shows the selected drawable in a window, with `overlay` over it.
     ///
     /// # Errors
@@ -78,20 +111,11 @@ impl Renderer {
         presented
     }
 
-    fn new_seat(&mut self) -> Result<Seat, RenderError> {
-        let options = self.tracer.as_ref().map(|tracer| tracer.options.clone());
-        let tracer = match options.map(|options| Tracer::new(&self.gpu, &self.table, options)) {
-            Some(Err(error)) if error.is_out_of_memory() => {
-                self.trace_no_more(&error.into());
-                None
-            }
-            Some(made) => made?,
-            None => None,
-        };
+    fn new_seat(&self) -> Result<Seat, RenderError> {
         Ok(Seat {
             target: Target::new(&self.gpu, [1, 1])?,
-            accumulator: Accumulator::new(&self.gpu)?,
-            tracer,
+            accumulator: Accumulator::new(&self.gpu),
+            tracer: self.tracer.as_ref().map(|tracer| tracer.beside(&self.gpu)),
             swaps: 0,
         })
     }

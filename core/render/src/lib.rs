@@ -40,6 +40,7 @@ mod window;
 
 pub use afterglow_frame_graph::CulledReport;
 pub use afterglow_records::Paint;
+pub use drawables::Carried;
 pub use error::RenderError;
 pub use pathtrace::{Displaced, Mode, PathtraceOptions, TraceCounts};
 pub use renderer::{RenderOptions, Renderer};

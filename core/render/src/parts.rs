@@ -36,11 +36,34 @@ impl Renderer {
             (Some(Parts::None), End::Swap) => self.execute_traced(frame),
             (Some(parts @ (Parts::None | Parts::Held(_))), End::Continued) => self.hold(parts, frame),
             (Some(Parts::Held(held)), End::Swap) => self.execute_whole(*held, frame),
+            (Some(parts), End::Over) => {
+                self.settle_held(parts, frame);
+                self.observe(frame);
+                self.execute(frame)
+            }
             (Some(Parts::Settled), end) => {
                 self.set_parts(if end == End::Swap { Parts::None } else { Parts::Settled });
                 self.observe(frame);
                 self.execute(frame)
             }
+        }
+    }
+
+    /// Leaves what was handed over of the frame that goes on as it is.
+    pub(crate) fn settle(&mut self) -> Result<(), RenderError> {
+        let Some(parts @ Parts::Held(_)) = self.take_parts() else { return Ok(()) };
+        let size = (self.target.size[0], self.target.size[1]);
+        let mut rest = Frame { size, ..Frame::default() };
+        self.settle_held(parts, &mut rest);
+        self.execute(&rest)
+    }
+
+    /// Likewise; what is still to be done comes to the end of `next`.
+    fn settle_held(&mut self, parts: Parts, next: &mut Frame) {
+        if let Parts::Held(mut held) = parts {
+            self.observe(&held.frame);
+            let is_due = |operation: &mut Operation| matches!(operation, Operation::DropImage(_));
+            next.operations.extend(held.frame.operations.extract_if(.., is_due));
         }
     }
 

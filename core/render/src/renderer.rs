@@ -79,7 +79,7 @@ impl Renderer {
             ranges: RetainedRanges::new(gpu),
             raster: RasterState::new(gpu, &table)?,
             flip: Flip::new(gpu)?,
-            accumulator: Accumulator::new(gpu)?,
+            accumulator: Accumulator::new(gpu),
             store: Store::new(gpu),
             texture_state: afterglow_frame_graph::ResourceState::SETTLED,
             geometry_state: afterglow_frame_graph::ResourceState::SETTLED,

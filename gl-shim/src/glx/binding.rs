@@ -6,11 +6,14 @@ use std::ptr::null_mut;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use afterglow_engine::Port;
 use afterglow_gl::Context;
 
 use super::contexts::{self, GlxContext};
-use super::drawables::{self, GlxDrawable};
+use super::drawables::{self, GlxDrawable, Kind};
+use super::errors::Fault;
 use super::xlib::{Display, Xid};
+use super::{displays, pixmaps, render};
 use crate::boundary::guarded;
 use crate::current;
 
@@ -68,15 +71,51 @@ impl Binding {
             port.bind(draw.target().cloned(), read.target().cloned());
         }
         draw.drawn_by(&context.group);
+        let buffers = draw.config.unwrap_or(context.config).buffers();
+        if let Some(target) = draw.target().filter(|_| !buffers.is_double) {
+            // Flushes come often, and do not wait for the screen.
+            target.set_swap_interval(0);
+        }
         // SAFETY: the calling thread has claimed the context.
-        unsafe { &mut *context.gl() }.set_drawable(width, height);
+        let gl = unsafe { &mut *context.gl() };
+        gl.set_buffers(buffers);
+        gl.set_drawable(width, height);
+        gl.set_reads_elsewhere(context.port.as_ref().is_some_and(Port::reads_elsewhere));
         current::set(context.gl());
         Self { display, draw_id, read_id, context, draw, asked: Cell::default() }
     }
 
-    /// Whether what is drawn shows without a buffer swap.
-    pub fn is_single(&self) -> bool {
-        !self.draw.config.unwrap_or(self.context.config).is_double
+    /// What glFlush does beyond the context: drawing shows where no buffer swap will show it, and others see it.
+    fn flush(&self, gl: &mut Context) {
+        let shows_at_once = gl.shows_at_once();
+        if let Kind::Pixmap { pixmap } = self.draw.kind {
+            gl.hand_over_picture();
+            self.publish(pixmap);
+        } else if shows_at_once {
+            gl.hand_over_picture();
+            render::note_picture();
+            if let Some(target) = self.draw.target() {
+                target.present();
+                let (width, height) = target.size();
+                gl.set_drawable(width, height);
+            }
+        } else {
+            gl.flush_so_far();
+        }
+    }
+
+    /// Copies what was drawn to the pixmap of X.
+    fn publish(&self, pixmap: Xid) {
+        let (Some(target), Some(port)) = (self.draw.target(), &self.context.port) else { return };
+        let display: *mut Display = std::ptr::with_exposed_provenance_mut(self.display);
+        // A display that was closed meanwhile took the pixmap with it.
+        if !displays::is_open(display) || !target.take_drawn() {
+            return;
+        }
+        if let Some(pixels) = port.clone().colors() {
+            // SAFETY: it is open.
+            unsafe { pixmaps::put(display, pixmap, self.draw.size(), &pixels) };
+        }
     }
 }
 
@@ -94,58 +133,81 @@ impl Drop for Binding {
     }
 }
 
-/// Makes a context current, or none if it is null. `false` if that is not possible: what was current stays so.
+/// Makes a context current, or none if it is null.
+///
+/// # Errors
+/// What is not possible; what was current stays so.
 ///
 /// # Safety
 /// `display` is null or open.
-pub unsafe fn make_current(display: *mut Display, draw: Xid, read: Xid, context: *const c_void) -> bool {
+pub unsafe fn make_current(
+    display: *mut Display,
+    draw: Xid,
+    read: Xid,
+    context: *const c_void,
+) -> Result<(), Fault> {
     if with(|binding| binding.is(display, draw, read, context)) == Some(true) {
-        return true;
+        return Ok(());
     }
     if context.is_null() {
-        return replace(|| None);
+        return match (draw, read) {
+            (0, 0) => replace(|| None),
+            _ => Err(Fault::BadMatch),
+        };
     }
-    let Some(context) = contexts::get(context) else { return false };
+    let context = contexts::get(context).ok_or(Fault::BadContext)?;
+    if draw == 0 || read == 0 {
+        return Err(Fault::BadMatch);
+    }
     // SAFETY: the caller vouches for the display.
     let find = |id| unsafe {
-        let found = drawables::get_or_window(display, id)?;
+        let found = drawables::get_or_window(display, id).ok_or(Fault::BadDrawable)?;
         if !found.refresh_size(display) {
             // X will give the id to another window.
             drawables::destroy(display, id);
-            return None;
+            return Err(Fault::BadDrawable);
         }
-        Some((id, found))
+        Ok((id, found))
     };
-    let Some(drawn) = find(draw) else { return false };
-    let Some(read) = (if read == draw { Some(drawn.clone()) } else { find(read) }) else { return false };
+    let drawn = find(draw)?;
+    let read = if read == draw { drawn.clone() } else { find(read)? };
     let is_own = with(|binding| Arc::ptr_eq(&binding.context, &context)) == Some(true);
     if !is_own && !context.claim() {
-        return false;
+        return Err(Fault::BadAccess);
     }
     replace(|| {
         // The claim of a thread's own context ended with its binding.
         (!is_own || context.claim()).then(|| Binding::new(display as usize, context, drawn, read))
-    }) && with(|_| ()).is_some()
+    })?;
+    with(|_| ()).ok_or(Fault::BadAccess)
 }
 
-/// Ends what is current, and then makes and keeps another one. `false` if the thread is ending.
-fn replace(make: impl FnOnce() -> Option<Binding>) -> bool {
+/// Ends what is current, and then makes and keeps another one. An error if the thread is ending.
+fn replace(make: impl FnOnce() -> Option<Binding>) -> Result<(), Fault> {
+    // What is no longer current is flushed (3.3.7).
+    with_gl(Binding::flush);
     let replaced = BINDING.try_with(|slot| {
         let former = slot.borrow_mut().take();
         drop(former);
         let new = make().map(Rc::new);
         *slot.borrow_mut() = new;
     });
-    replaced.is_ok()
+    replaced.map_err(|_| Fault::BadAccess)
 }
 
-/// Swaps the buffers of a drawable.
+/// Swaps the buffers of a drawable. Where there is only one, what is drawn shows all the same.
 pub fn swap(display: *mut Display, drawable: Xid) {
     let own = with(|binding| binding.draw_id == drawable && binding.display == display as usize);
     if own == Some(true) {
         with_gl(|binding, gl| {
+            if !binding.draw.config.unwrap_or(binding.context.config).is_double {
+                return binding.flush(gl);
+            }
             gl.swap_buffers();
-            binding.draw.shown();
+            render::note_picture();
+            if let Kind::Pixmap { pixmap } = binding.draw.kind {
+                binding.publish(pixmap);
+            }
             let (width, height) = binding.draw.size();
             gl.set_drawable(width, height);
         });
@@ -154,22 +216,10 @@ pub fn swap(display: *mut Display, drawable: Xid) {
     }
 }
 
-/// What glFlush and glFinish of the current context, `gl`, do beyond it: single-buffered drawing shows, and contexts
-/// that share its names see what it did.
+/// What glFlush and glFinish of the current context, `gl`, do beyond it: what is drawn where it shows at once is shown,
+/// and other contexts see what this one did.
 pub fn flushed(gl: &mut Context) {
-    with(|binding| {
-        if binding.is_single() {
-            gl.hand_over_so_far();
-            if let Some(target) = binding.draw.target() {
-                target.present();
-                binding.draw.shown();
-                let (width, height) = target.size();
-                gl.set_drawable(width, height);
-            }
-        } else if binding.context.is_shared() {
-            gl.hand_over_so_far();
-        }
-    });
+    with(|binding| binding.flush(gl));
 }
 
 /// What glViewport of the current context, `gl`, does beyond it. A program that was told of its window's new size comes
@@ -195,8 +245,9 @@ pub fn viewport_set(gl: &mut Context, width: i32, height: i32) {
 mod tests {
     use std::ptr::{null, without_provenance, without_provenance_mut};
 
+    use afterglow_api::constants::*;
+
     use super::super::config::{Config, Visual, all, keep};
-    use super::super::drawables::Kind;
     use super::*;
 
     const CONFIG: Config = Config {
@@ -221,7 +272,7 @@ mod tests {
 
     fn bind(display: *mut Display, drawable: Xid, context: usize) -> bool {
         // SAFETY: as above.
-        unsafe { make_current(display, drawable, drawable, without_provenance(context)) }
+        unsafe { make_current(display, drawable, drawable, without_provenance(context)) }.is_ok()
     }
 
     #[test]
@@ -279,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn a_configuration_says_whether_a_flush_shows() {
+    fn queries_follow_the_configuration() {
         let table = keep(all(0, &[Visual { id: 0x95, depth: 24 }]));
         let display = display(0x73);
         for config in table {
@@ -288,7 +339,11 @@ mod tests {
             let drawable =
                 unsafe { drawables::create(display, Kind::Pbuffer, config, String::new(), (1, 1)) };
             assert!(bind(display, drawable, context));
-            assert_eq!(with(Binding::is_single), Some(!config.is_double));
+            let names = [GL_DOUBLEBUFFER, GL_DEPTH_BITS, GL_STENCIL_BITS, GL_ACCUM_RED_BITS];
+            let bits = with_gl(|_, gl| names.map(|name| gl.get_integer(name)[0]));
+            assert_eq!(bits, Some([config.is_double.into(), config.depth, config.stencil, config.accum]));
+            let buffer = if config.is_double { GL_BACK } else { GL_FRONT };
+            assert_eq!(with_gl(|_, gl| gl.get_integer(GL_DRAW_BUFFER)), Some(vec![buffer as i32]));
         }
         assert!(bind(display, 0, 0));
     }

@@ -3,6 +3,7 @@
 use std::ffi::c_void;
 
 use afterglow_api::constants::glx::*;
+use afterglow_gl::Buffers;
 use parking_lot::Mutex;
 
 /// Greatest width and height of a pbuffer.
@@ -74,6 +75,16 @@ impl Config {
             _ => return None,
         };
         Some(value)
+    }
+
+    /// What a context knows of it.
+    pub fn buffers(&self) -> Buffers {
+        Buffers {
+            is_double: self.is_double,
+            depth: self.depth as u8,
+            stencil: self.stencil as u8,
+            accumulation: self.accum as u8,
+        }
     }
 
     /// The handle that programs know it by.

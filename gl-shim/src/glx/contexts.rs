@@ -12,7 +12,9 @@ use afterglow_gl::{Context, SharedNames};
 use parking_lot::Mutex;
 
 use super::config::Config;
+use super::errors::Fault;
 use super::render;
+use crate::current;
 
 /// Contexts that exist at a time.
 const MOST_CONTEXTS: usize = 1024;
@@ -92,11 +94,6 @@ impl GlxContext {
     pub fn gl(&self) -> *mut Context {
         self.gl.get()
     }
-
-    /// Whether other contexts see its names.
-    pub fn is_shared(&self) -> bool {
-        Arc::strong_count(&self.group) > 1
-    }
 }
 
 static CONTEXTS: Mutex<Contexts> = Mutex::new(Contexts { by_handle: None, last: 0 });
@@ -111,34 +108,67 @@ pub fn get(handle: *const c_void) -> Option<Arc<GlxContext>> {
     CONTEXTS.lock().by_handle.as_ref()?.get(&(handle as usize)).cloned()
 }
 
-/// Makes a context that shares names with another one, unless that is null; nothing if that is garbage.
-pub fn create(config: &'static Config, share: *const c_void) -> Option<Arc<GlxContext>> {
+/// Makes a context that shares names with another one, unless that is null.
+///
+/// # Errors
+/// If that is garbage, or there are too many contexts.
+pub fn create(config: &'static Config, share: *const c_void) -> Result<Arc<GlxContext>, Fault> {
     let group = match share.is_null() {
         true => Arc::new(Group::new()),
-        false => get(share)?.group.clone(),
+        false => get(share).ok_or(Fault::BadContext)?.group.clone(),
     };
     let mut contexts = CONTEXTS.lock();
     let Contexts { by_handle, last } = &mut *contexts;
     let by_handle = by_handle.get_or_insert_default();
     if by_handle.len() >= MOST_CONTEXTS {
-        return None;
+        return Err(Fault::BadAlloc);
     }
     *last += HANDLE_STEP;
     let context = Arc::new(GlxContext::new(*last, config, group));
     by_handle.insert(*last, context.clone());
-    Some(context)
+    Ok(context)
 }
 
-/// Takes a context's handle away; the context lives on while it is current.
-pub fn destroy(handle: *const c_void) {
+/// Takes a context's handle away, if there is such a one; the context lives on while it is current.
+pub fn destroy(handle: *const c_void) -> bool {
     // Not in the statement's temporary: dropping a context takes other locks.
     let removed = CONTEXTS.lock().by_handle.as_mut().and_then(|contexts| contexts.remove(&(handle as usize)));
-    drop(removed);
+    removed.is_some()
+}
+
+/// Copies groups of state, which `mask` names as glPushAttrib's does, from one context to another.
+///
+/// # Errors
+/// If there are no such contexts, the second one is current, or the first one is current in another thread.
+pub fn copy(source: *const c_void, destination: *const c_void, mask: u32) -> Result<(), Fault> {
+    let (source, destination) = match (get(source), get(destination)) {
+        (Some(source), Some(destination)) => (source, destination),
+        _ => return Err(Fault::BadContext),
+    };
+    if !destination.claim() {
+        return Err(Fault::BadAccess);
+    }
+    let is_own = current::get() == source.gl();
+    let copied = if is_own || source.claim() {
+        // SAFETY: both are the calling thread's alone, and differ: none can be claimed twice, or be current and claimed.
+        let (from, to) = unsafe { (&mut *source.gl(), &mut *destination.gl()) };
+        to.copy_state(from, mask);
+        if !is_own {
+            source.release();
+        }
+        Ok(())
+    } else {
+        Err(Fault::BadAccess)
+    };
+    destination.release();
+    copied
 }
 
 #[cfg(test)]
 mod tests {
     use std::ptr::{null, without_provenance};
+
+    use afterglow_api::constants::*;
 
     use super::super::config::{Visual, all, keep};
     use super::*;
@@ -147,17 +177,33 @@ mod tests {
     fn handles_come_and_go() {
         let config = &keep(all(0, &[Visual { id: 0x93, depth: 24 }]))[0];
         let garbage = without_provenance(0x1235);
-        assert!(get(garbage).is_none() && create(config, garbage).is_none());
-        destroy(garbage);
+        assert!(get(garbage).is_none() && create(config, garbage).is_err());
+        assert!(!destroy(garbage));
         let first = create(config, null()).unwrap();
-        assert!(!first.is_shared());
         let second = create(config, without_provenance(first.handle)).unwrap();
-        assert!(first.is_shared() && first.handle != second.handle);
+        assert!(Arc::ptr_eq(&first.group, &second.group) && first.handle != second.handle);
         destroy(without_provenance(second.handle));
         drop(second);
-        assert!(!first.is_shared() && get(without_provenance(first.handle)).is_some());
+        assert!(get(without_provenance(first.handle)).is_some());
         destroy(without_provenance(first.handle));
         assert!(get(without_provenance(first.handle)).is_none());
+    }
+
+    #[test]
+    fn state_is_copied() {
+        let config = &keep(all(0, &[Visual { id: 0x96, depth: 24 }]))[0];
+        let [source, destination] = [(); 2].map(|()| create(config, null()).unwrap());
+        let handle = |context: &GlxContext| without_provenance(context.handle);
+        // SAFETY: no other thread knows the contexts.
+        let (from, to) = unsafe { (&mut *source.gl(), &mut *destination.gl()) };
+        from.line_width(3.0);
+        from.point_size(5.0);
+        assert_eq!(copy(handle(&source), handle(&destination), GL_LINE_BIT), Ok(()));
+        assert_eq!((to.get_float(GL_LINE_WIDTH), to.get_float(GL_POINT_SIZE)), (vec![3.0], vec![1.0]));
+        assert_eq!(copy(handle(&source), handle(&source), GL_LINE_BIT), Err(Fault::BadAccess));
+        assert_eq!(copy(handle(&source), without_provenance(0x1239), 0), Err(Fault::BadContext));
+        assert!(source.claim() && destination.claim());
+        assert!(destroy(handle(&source)) && destroy(handle(&destination)));
     }
 
     #[test]
@@ -167,6 +213,6 @@ mod tests {
         assert!(context.claim() && !context.claim());
         context.release();
         assert!(context.claim());
-        destroy(without_provenance(context.handle));
+        assert!(destroy(without_provenance(context.handle)));
     }
 }

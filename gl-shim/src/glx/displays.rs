@@ -18,9 +18,22 @@ const MOST_SCREENS: c_int = 64;
 pub struct OpenDisplay {
     /// The server's name.
     pub server: String,
+    /// The codes of its GLX.
+    pub codes: Codes,
     screens: Vec<Screen>,
     /// What glXChooseVisual found last, by visual: glXCreateContext is told only the visual.
     chosen: Mutex<HashMap<u32, &'static Config>>,
+}
+
+/// Codes of the server's GLX extension; zeros if it has none.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Codes {
+    /// Of requests.
+    pub opcode: c_int,
+    /// Of the first event.
+    pub first_event: c_int,
+    /// Of the first error.
+    pub first_error: c_int,
 }
 
 /// A screen.
@@ -60,6 +73,11 @@ pub unsafe fn get(display: *mut Display) -> Option<Arc<OpenDisplay>> {
     Some(made)
 }
 
+/// Whether a display that was known is open still.
+pub fn is_open(display: *mut Display) -> bool {
+    DISPLAYS.lock().as_ref().is_some_and(|displays| displays.contains_key(&(display as usize)))
+}
+
 /// Forgets a display that is being closed.
 unsafe extern "C" fn closed(display: *mut Display, _: *mut c_void) -> c_int {
     guarded(|| {
@@ -76,11 +94,15 @@ impl OpenDisplay {
     unsafe fn new(xlib: &Xlib, display: *mut Display) -> Self {
         // SAFETY: the caller vouches for the display.
         let (server, count) = unsafe { (xlib.server(display), (xlib.screen_count)(display)) };
+        let mut codes = Codes::default();
+        let Codes { opcode, first_event, first_error } = &mut codes;
+        // SAFETY: as above; all pointers are of variables.
+        unsafe { (xlib.query_extension)(display, c"GLX".as_ptr(), opcode, first_event, first_error) };
         let screens = (0..count.min(MOST_SCREENS))
             // SAFETY: as above.
             .map(|screen| unsafe { Screen::new(xlib, display, screen) })
             .collect();
-        Self { server, screens, chosen: Mutex::default() }
+        Self { server, codes, screens, chosen: Mutex::default() }
     }
 
     /// A screen by its number.

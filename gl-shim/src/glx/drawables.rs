@@ -1,7 +1,7 @@
 //! Windows, pixmaps and pbuffers that are drawn to, by display and id.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU32, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicI32, AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock, Weak};
 
 use afterglow_engine::{Drawable, Port, Surface};
@@ -29,8 +29,11 @@ pub enum Kind {
         /// Its X id.
         window: Xid,
     },
-    /// A pixmap. What is drawn is not copied to X.
-    Pixmap,
+    /// A pixmap.
+    Pixmap {
+        /// Its X id.
+        pixmap: Xid,
+    },
     /// A pbuffer.
     Pbuffer,
 }
@@ -47,8 +50,6 @@ pub struct GlxDrawable {
     /// Width and height where there is no render thread.
     size: Mutex<(u32, u32)>,
     interval: AtomicI32,
-    /// It has been shown: the render thread knows its size.
-    is_shown: AtomicBool,
     /// Made when it is first current.
     target: OnceLock<Option<Drawable>>,
     /// Whose contexts drew to it last.
@@ -64,7 +65,6 @@ impl GlxDrawable {
             server,
             size: Mutex::new(size),
             interval: AtomicI32::new(1),
-            is_shown: AtomicBool::new(false),
             target: OnceLock::new(),
             group: Mutex::default(),
         }
@@ -78,7 +78,7 @@ impl GlxDrawable {
                     Kind::Window { window } => {
                         Surface::X11 { display: self.server.clone(), window: window as u32 }
                     }
-                    Kind::Pixmap | Kind::Pbuffer => Surface::None,
+                    Kind::Pixmap { .. } | Kind::Pbuffer => Surface::None,
                 };
                 let target = render::engine()?.drawable(surface, *self.size.lock());
                 target.set_swap_interval(self.interval());
@@ -92,15 +92,12 @@ impl GlxDrawable {
         self.target.get().and_then(Option::as_ref).map_or_else(|| *self.size.lock(), Drawable::size)
     }
 
-    /// Asks X for a window's size unless the render thread follows it; `false` if there is no such window.
+    /// Asks X for a window's size; `false` if there is no such window.
     ///
     /// # Safety
     /// `display` is open.
     pub unsafe fn refresh_size(&self, display: *mut Display) -> bool {
         let Kind::Window { window } = self.kind else { return true };
-        if self.is_shown.load(Ordering::Relaxed) && self.target().is_some() {
-            return true;
-        }
         // SAFETY: the caller vouches for the display.
         let Some(size) = xlib::get().and_then(|xlib| unsafe { xlib.size(display, window) }) else {
             return false;
@@ -130,11 +127,6 @@ impl GlxDrawable {
         *self.group.lock() = Arc::downgrade(group);
     }
 
-    /// Takes note that it is shown.
-    pub fn shown(&self) {
-        self.is_shown.store(true, Ordering::Relaxed);
-    }
-
     /// Swaps buffers where no context of the calling thread draws: shows what was handed over so far.
     pub fn swap(&self) {
         let Some(group) = self.group.lock().upgrade() else { return };
@@ -143,7 +135,6 @@ impl GlxDrawable {
         port.bind(Some(target.clone()), None);
         let frame = Frame { size: target.size(), device: port.device(), ..Frame::default() };
         port.submit(frame, End::Swap);
-        self.shown();
     }
 }
 
@@ -235,7 +226,7 @@ unsafe fn prune(display: *mut Display) {
             .filter(|(_, drawable)| Arc::strong_count(drawable) == 1)
             .filter_map(|(key, drawable)| match drawable.kind {
                 Kind::Window { window } => Some((*key, window)),
-                Kind::Pixmap | Kind::Pbuffer => None,
+                Kind::Pixmap { .. } | Kind::Pbuffer => None,
             })
             .collect()
     };
@@ -252,11 +243,9 @@ unsafe fn prune(display: *mut Display) {
     drop(removed);
 }
 
-/// Forgets a drawable; it lives on while it is current.
-pub fn destroy(display: *mut Display, id: Xid) {
-    let removed =
-        DRAWABLES.lock().by_key.as_mut().and_then(|drawables| drawables.remove(&(display as usize, id)));
-    drop(removed);
+/// Forgets a drawable, and returns it if it was known; it lives on while it is current.
+pub fn destroy(display: *mut Display, id: Xid) -> Option<Arc<GlxDrawable>> {
+    DRAWABLES.lock().by_key.as_mut().and_then(|drawables| drawables.remove(&(display as usize, id)))
 }
 
 /// Forgets all drawables of a display.
@@ -284,8 +273,7 @@ mod tests {
         assert!(first >= Xid::from(FIRST_ID) && second != first);
         assert_eq!(get(display, first).unwrap().size(), (8, 4));
         assert!(get(std::ptr::null_mut(), first).is_none() && get(display, 77).is_none());
-        destroy(display, first);
-        destroy(display, first);
+        assert!(destroy(display, first).is_some() && destroy(display, first).is_none());
         assert!(get(display, first).is_none() && get(display, second).is_some());
         forget_display(display);
         assert!(get(display, second).is_none());

@@ -3,6 +3,7 @@
 use std::ffi::c_int;
 use std::io::Write;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use afterglow_engine::Engine;
@@ -39,15 +40,29 @@ fn start() -> Option<Engine> {
     match Engine::start(options::engine()) {
         Ok(engine) => {
             tracing::info!("drawing with {}", engine.device().name);
-            // Registered after the driver's own: it runs before them.
-            // SAFETY: the library stays loaded (see build.rs).
-            unsafe { atexit(stop) };
+            stop_at_exit();
             Some(engine)
         }
         Err(error) => {
             let _ = writeln!(std::io::stderr(), "afterglow: nothing will be drawn: {error}");
             None
         }
+    }
+}
+
+/// Has the render thread ended at exit, before all that was registered so far.
+fn stop_at_exit() {
+    // SAFETY: the library stays loaded (see build.rs).
+    unsafe { atexit(stop) };
+}
+
+/// Takes note of a picture. Drivers and layers also make things at a first use that may come late, and take them down
+/// at exit before what was registered earlier: so the render thread's end is registered again, ever more seldom.
+pub fn note_picture() {
+    static PICTURES: AtomicU32 = AtomicU32::new(0);
+    let pictures = PICTURES.fetch_add(1, Ordering::Relaxed).wrapping_add(1);
+    if pictures.is_power_of_two() && matches!(ENGINE.get(), Some(Some(_))) {
+        stop_at_exit();
     }
 }
 

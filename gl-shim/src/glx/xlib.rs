@@ -1,6 +1,6 @@
 //! The program's own Xlib, found when it is first needed: there is no dependency to link with.
 
-use std::ffi::{CStr, c_char, c_int, c_long, c_short, c_uint, c_ulong, c_ushort, c_void};
+use std::ffi::{CStr, c_char, c_int, c_long, c_short, c_uchar, c_uint, c_ulong, c_ushort, c_void};
 use std::mem::MaybeUninit;
 use std::sync::OnceLock;
 
@@ -82,7 +82,31 @@ pub struct Char2b {
     pub byte2: u8,
 }
 
-type ErrorHandler = unsafe extern "C" fn(*mut Display, *mut c_void) -> c_int;
+/// XErrorEvent.
+#[repr(C)]
+#[derive(Debug)]
+#[allow(missing_docs, reason = "as in Xlib.h")]
+pub struct ErrorEvent {
+    pub kind: c_int,
+    pub display: *mut Display,
+    pub resource: Xid,
+    pub serial: c_ulong,
+    pub error_code: c_uchar,
+    pub request_code: c_uchar,
+    pub minor_code: c_uchar,
+}
+
+/// Called with what went wrong.
+pub type ErrorHandler = unsafe extern "C" fn(*mut Display, *mut c_void) -> c_int;
+/// Of a window or pixmap.
+#[derive(Debug, Clone, Copy)]
+pub struct Geometry {
+    /// Width and height, pixels.
+    pub size: (u32, u32),
+    /// Bits of a pixel.
+    pub depth: c_uint,
+}
+
 /// Called when a display is closed.
 pub type CloseHook = unsafe extern "C" fn(*mut Display, *mut c_void) -> c_int;
 
@@ -115,6 +139,8 @@ functions! {
     display_string = XDisplayString(*mut Display) -> *const c_char;
     root_window = XRootWindow(*mut Display, c_int) -> Xid;
     sync = XSync(*mut Display, c_int) -> c_int;
+    next_request = XNextRequest(*mut Display) -> c_ulong;
+    default_error_handler = _XDefaultError(*mut Display, *mut c_void) -> c_int;
     set_error_handler = XSetErrorHandler(Option<ErrorHandler>) -> Option<ErrorHandler>;
     get_geometry = XGetGeometry(*mut Display, Xid, *mut Xid, *mut c_int, *mut c_int, *mut c_uint, *mut c_uint, *mut c_uint, *mut c_uint) -> c_int;
     get_visual_info = XGetVisualInfo(*mut Display, c_long, *mut VisualInfo, *mut c_int) -> *mut VisualInfo;
@@ -131,6 +157,8 @@ functions! {
     set_font = XSetFont(*mut Display, *mut c_void, Xid) -> c_int;
     fill_rectangle = XFillRectangle(*mut Display, Xid, *mut c_void, c_int, c_int, c_uint, c_uint) -> c_int;
     draw_string16 = XDrawString16(*mut Display, Xid, *mut c_void, c_int, c_int, *const Char2b, c_int) -> c_int;
+    create_image = XCreateImage(*mut Display, *mut c_void, c_uint, c_int, c_int, *mut c_char, c_uint, c_uint, c_int, c_int) -> *mut c_void;
+    put_image = XPutImage(*mut Display, Xid, *mut c_void, *mut c_void, c_int, c_int, c_int, c_int, c_uint, c_uint) -> c_int;
     get_image = XGetImage(*mut Display, Xid, c_int, c_int, c_uint, c_uint, c_ulong, c_int) -> *mut c_void;
     get_pixel = XGetPixel(*mut c_void, c_int, c_int) -> c_ulong;
     destroy_image = XDestroyImage(*mut c_void) -> c_int;
@@ -147,17 +175,29 @@ unsafe extern "C" fn ignore(_: *mut Display, _: *mut c_void) -> c_int {
     0
 }
 
+/// Whoever changes the error handler. Two threads at a time would take each other's handler for the program's.
+static HANDLER: Mutex<()> = Mutex::new(());
+
 impl Xlib {
+    /// The error handler that the program set, if it did.
+    pub fn program_s_error_handler(&self) -> Option<ErrorHandler> {
+        let _alone = HANDLER.lock();
+        // There is no other way to learn it than to set one.
+        // SAFETY: a handler with the type that Xlib wants.
+        let former = unsafe { (self.set_error_handler)(Some(ignore)) };
+        // SAFETY: the handler that was set before.
+        unsafe { (self.set_error_handler)(former) };
+        former.filter(|handler| *handler as usize != self.default_error_handler as usize)
+    }
+
     /// Runs requests whose errors do not count. Errors of earlier ones still reach the program's own handler.
     ///
     /// # Safety
     /// `display` is open. `requests` waits for its last request's answer.
     pub unsafe fn forgiving<T>(&self, display: *mut Display, requests: impl FnOnce() -> T) -> T {
-        // Two threads at a time would take each other's handler for the program's.
-        static ALONE: Mutex<()> = Mutex::new(());
-        let _alone = ALONE.lock();
         // SAFETY: the caller vouches for the display.
         unsafe { (self.sync)(display, 0) };
+        let _alone = HANDLER.lock();
         // SAFETY: a handler with the type that Xlib wants.
         let former = unsafe { (self.set_error_handler)(Some(ignore)) };
         let result = requests();
@@ -171,6 +211,15 @@ impl Xlib {
     /// # Safety
     /// `display` is open.
     pub unsafe fn size(&self, display: *mut Display, drawable: Xid) -> Option<(u32, u32)> {
+        // SAFETY: the caller vouches for the display.
+        unsafe { self.geometry(display, drawable) }.map(|geometry| geometry.size)
+    }
+
+    /// The form of a window or pixmap; nothing if there is no such thing.
+    ///
+    /// # Safety
+    /// `display` is open.
+    pub unsafe fn geometry(&self, display: *mut Display, drawable: Xid) -> Option<Geometry> {
         let (mut root, mut x, mut y, mut width, mut height, mut border, mut depth) = (0, 0, 0, 0, 0, 0, 0);
         let query = || {
             // SAFETY: the caller vouches for the display; all pointers are of variables.
@@ -190,7 +239,7 @@ impl Xlib {
         };
         // SAFETY: as above; the query waits for its answer.
         let found = unsafe { self.forgiving(display, query) };
-        (found != 0).then_some((width, height))
+        (found != 0).then_some(Geometry { size: (width, height), depth })
     }
 
     /// The visuals of a screen.

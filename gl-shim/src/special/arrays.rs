@@ -31,6 +31,11 @@ pub unsafe fn buffer_sub_data(
     data: *const c_void,
 ) {
     let Ok(count) = usize::try_from(size) else { return gl.record_error(GL_INVALID_VALUE) };
+    if data.is_null() {
+        // Nothing is written, but the range has to be one: it is looked at as a query does.
+        gl.get_buffer_sub_data(target, offset, size);
+        return;
+    }
     // SAFETY: there are `size` bytes.
     gl.buffer_sub_data(target, offset, unsafe { memory::bytes(data, count) });
 }

@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use afterglow_gl::texture::{ImageDefinition, MAX_SIZE, SubImage};
+use afterglow_gl::texture::{ImageDefinition, MAX_3D_SIZE, MAX_SIZE, SubImage};
 use afterglow_gl::{Context, Extent};
 
 use super::image;
@@ -10,8 +10,9 @@ use crate::memory;
 
 /// The extent of a texture image in memory; none if a texture cannot be so large, and is in error.
 fn extent(dimensions: usize, size: [i32; 3]) -> Option<Extent> {
+    let most = if dimensions == 3 { MAX_3D_SIZE } else { MAX_SIZE };
     // A border adds two.
-    if size.iter().any(|side| !(0..=MAX_SIZE as i32 + 2).contains(side)) {
+    if size.iter().any(|side| !(0..=most as i32 + 2).contains(side)) {
         return None;
     }
     let [width, height, depth] = size.map(|side| side as usize);
@@ -168,4 +169,17 @@ pub unsafe fn tex_sub_image_3d(
     let part = SubImage { level, offset: [x_offset, y_offset, z_offset], size: [width, height, depth] };
     // SAFETY: the contract is the same.
     unsafe { tex_sub_image(gl, (target, 3), part, (format, kind), pixels) };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_texture_is_larger_than_the_greatest() {
+        let (flat, deep) = (MAX_SIZE as i32 + 2, MAX_3D_SIZE as i32 + 2);
+        assert!(extent(2, [flat, flat, 1]).is_some() && extent(2, [flat + 1, 1, 1]).is_none());
+        assert!(extent(3, [deep; 3]).is_some() && extent(3, [1, deep + 1, 1]).is_none());
+        assert!(extent(1, [-1, 1, 1]).is_none());
+    }
 }

@@ -21,8 +21,13 @@ struct Offsets {
 }
 
 impl Frame {
-    /// Joins what a later part of the same frame has to this one, and leaves the other empty.
+    /// Joins what a later part of the same frame has to this one, and leaves the other empty. If the device was lost in
+    /// between, only images stay of what was before.
     pub fn append(&mut self, later: &mut Frame) {
+        if self.device != later.device {
+            self.keep_images();
+            self.device = later.device;
+        }
         let offsets = Offsets {
             words: self.words.len() as u32,
             indices: self.indices.len() as u32,

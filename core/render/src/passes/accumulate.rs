@@ -17,10 +17,10 @@ const PIXEL_BYTES: u64 = 16;
 /// Pixels of a workgroup's side.
 const WORKGROUP: u32 = 8;
 
-/// The shader, and the buffer of one window size.
+/// The shader, and the buffer of one window size. Few windows need either.
 pub(crate) struct Accumulator {
     gpu: Gpu,
-    pipeline: ComputePipeline,
+    pipeline: Option<ComputePipeline>,
     buffer: Option<(Buffer, [u32; 2])>,
     pub(crate) state: ResourceState,
 }
@@ -87,19 +87,17 @@ impl Accumulated {
 }
 
 impl Accumulator {
-    pub(crate) fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let desc = ComputeDesc::new("accumulate.comp", afterglow_shaders::ACCUMULATE_COMP)
-            .push_constants(size_of::<AccumulatePush>() as u32);
-        Ok(Self {
-            gpu: gpu.clone(),
-            pipeline: gpu.create_compute_pipeline(&desc)?,
-            buffer: None,
-            state: ResourceState::SETTLED,
-        })
+    pub(crate) fn new(gpu: &Gpu) -> Self {
+        Self { gpu: gpu.clone(), pipeline: None, buffer: None, state: ResourceState::SETTLED }
     }
 
     /// Makes a buffer of zeros unless there is one for this window size.
     pub(crate) fn reserve(&mut self, size: [u32; 2]) -> Result<(), GpuError> {
+        if self.pipeline.is_none() {
+            let desc = ComputeDesc::new("accumulate.comp", afterglow_shaders::ACCUMULATE_COMP)
+                .push_constants(size_of::<AccumulatePush>() as u32);
+            self.pipeline = Some(self.gpu.create_compute_pipeline(&desc)?);
+        }
         if self.buffer.as_ref().is_some_and(|(_, made_for)| *made_for == size) {
             return Ok(());
         }
@@ -119,7 +117,7 @@ impl Accumulator {
 
     /// Records the arithmetic.
     pub(crate) fn record(&self, commands: &Commands<'_>, item: &Accumulated, store: &Store) {
-        let Some((buffer, [pitch, _])) = &self.buffer else {
+        let (Some(pipeline), Some((buffer, [pitch, _]))) = (&self.pipeline, &self.buffer) else {
             return;
         };
         let vk::Rect2D { offset, extent } = item.rect;
@@ -134,7 +132,7 @@ impl Accumulator {
             clear: item.clear,
         };
         let groups = [extent.width, extent.height].map(|side| side.div_ceil(WORKGROUP));
-        commands.compute(&self.pipeline, &[], &push, [groups[0], groups[1], 1]);
+        commands.compute(pipeline, &[], &push, [groups[0], groups[1], 1]);
     }
 }
 

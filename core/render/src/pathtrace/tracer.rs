@@ -1,5 +1,7 @@
 //! What path tracing keeps from frame to frame.
 
+use std::sync::Arc;
+
 use afterglow_frame_graph::{CompiledGraph, ResourceState};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
@@ -39,7 +41,7 @@ pub(crate) struct Tracer {
     pub(crate) world: WorldBuilder,
     /// How the last frame left the meshes.
     pub(crate) world_state: ResourceState,
-    pub(crate) pipelines: TracePipelines,
+    pub(crate) pipelines: Arc<TracePipelines>,
     /// Of the window's size; none before the first traced frame.
     pub(crate) buffers: Option<ViewBuffers>,
     /// Of each view.
@@ -67,18 +69,28 @@ impl Tracer {
             tracing::warn!("the device cannot number triangles: frames are rasterized");
             return Ok(None);
         }
-        Ok(Some(Self {
+        let pipelines = Arc::new(TracePipelines::new(gpu, table)?);
+        Ok(Some(Self::with(gpu, options, pipelines)))
+    }
+
+    /// For another window of the same renderer.
+    pub(crate) fn beside(&self, gpu: &Gpu) -> Self {
+        Self::with(gpu, self.options.clone(), self.pipelines.clone())
+    }
+
+    fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
+        Self {
             options,
             recovery: Recovery::new(),
             world: WorldBuilder::new(gpu),
             world_state: ResourceState::SETTLED,
-            pipelines: TracePipelines::new(gpu, table)?,
+            pipelines,
             buffers: None,
             history: Vec::new(),
             has_exposure: false,
             parts: Parts::None,
             before: None,
-        }))
+        }
     }
 
     /// Judges a frame, and puts it in order if it has a world.

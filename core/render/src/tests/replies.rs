@@ -87,6 +87,26 @@ fn frames_handed_over_in_parts_are_one_frame() {
 }
 
 #[test]
+fn a_drawable_goes_from_one_renderer_to_another() {
+    let (mut from, mut to) = (renderer(), renderer());
+    from.select(7).unwrap();
+    let mut frame = FrameBuilder::new(4, 4);
+    frame.clear([1.0, 0.0, 0.0, 1.0]);
+    from.submit(frame.frame, End::Continued);
+    assert!(from.give_up(8).is_none());
+    let carried = from.give_up(7).unwrap();
+    drop(from);
+    to.select(3).unwrap();
+    to.take_over(7, carried).unwrap();
+    let mut frame = FrameBuilder::new(4, 4);
+    frame.quad([-1.0, -1.0], [0.0, 1.0], 0.0, GREEN);
+    to.submit(frame.frame, End::Over);
+    let picture = Picture::after(&mut to, &[]);
+    assert_eq!([RED, GREEN].map(|color| picture.count(color)), [8, 8]);
+    assert_valid();
+}
+
+#[test]
 fn the_same_frames_give_the_same_bits() {
     let run = || {
         let mut renderer = renderer();

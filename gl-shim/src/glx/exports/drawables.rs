@@ -12,6 +12,7 @@ use crate::glx::attributes::{self, value};
 use crate::glx::config::{self, Config, PBUFFER_EXTENT};
 use crate::glx::displays;
 use crate::glx::drawables::{self, Kind};
+use crate::glx::errors::{self, Fault, Request};
 use crate::glx::xlib::{self, Display, VisualInfo, Xid};
 
 /// The greatest swap interval that glXQueryDrawable tells.
@@ -19,26 +20,53 @@ const MOST_INTERVAL: c_uint = 1;
 
 /// glXCreateWindow.
 pub unsafe fn create_window(display: *mut Display, config: *const c_void, window: Xid) -> Xid {
-    // SAFETY: the program vouches for its display.
-    guarded(|| unsafe { of_x(display, config::from_handle(config)?, window, Kind::Window { window }) })
-        .flatten()
-        .unwrap_or(0)
+    let make = || {
+        let config = config::from_handle(config).ok_or(Fault::BadFBConfig)?;
+        // SAFETY: the program vouches for its display.
+        unsafe { of_x(display, config, window, Kind::Window { window }) }.ok_or(Fault::BadXWindow)
+    };
+    // SAFETY: as above.
+    unsafe { or_raise(display, Request::CreateWindow, window, make) }
 }
 
 /// glXCreatePixmap.
 pub unsafe fn create_pixmap(display: *mut Display, config: *const c_void, pixmap: Xid) -> Xid {
-    // SAFETY: the program vouches for its display.
-    guarded(|| unsafe { of_x(display, config::from_handle(config)?, pixmap, Kind::Pixmap) })
-        .flatten()
-        .unwrap_or(0)
+    let make = || {
+        let config = config::from_handle(config).ok_or(Fault::BadFBConfig)?;
+        // SAFETY: the program vouches for its display.
+        unsafe { of_x(display, config, pixmap, Kind::Pixmap { pixmap }) }.ok_or(Fault::BadXPixmap)
+    };
+    // SAFETY: as above.
+    unsafe { or_raise(display, Request::CreatePixmap, pixmap, make) }
 }
 
 /// glXCreateGLXPixmap.
 pub unsafe fn create_glx_pixmap(display: *mut Display, visual: *const VisualInfo, pixmap: Xid) -> Xid {
-    // SAFETY: the program vouches for display and visual.
-    guarded(|| unsafe { of_x(display, of_visual(display, visual)?, pixmap, Kind::Pixmap) })
-        .flatten()
-        .unwrap_or(0)
+    let make = || {
+        // SAFETY: the program vouches for display and visual.
+        let config = unsafe { of_visual(display, visual) }.ok_or(Fault::BadValue)?;
+        // SAFETY: as above.
+        unsafe { of_x(display, config, pixmap, Kind::Pixmap { pixmap }) }.ok_or(Fault::BadXPixmap)
+    };
+    // SAFETY: as above.
+    unsafe { or_raise(display, Request::CreateGlxPixmap, pixmap, make) }
+}
+
+/// What `make` makes; 0, and an X error, if it cannot.
+///
+/// # Safety
+/// `display` is null or open.
+unsafe fn or_raise(
+    display: *mut Display,
+    request: Request,
+    resource: Xid,
+    make: impl FnOnce() -> Result<Xid, Fault>,
+) -> Xid {
+    guarded(make).unwrap_or(Err(Fault::BadAlloc)).unwrap_or_else(|fault| {
+        // SAFETY: the caller vouches for the display.
+        guarded(|| unsafe { errors::raise(display, fault, request, resource) });
+        0
+    })
 }
 
 /// A drawable for something of X.
@@ -56,16 +84,16 @@ unsafe fn of_x(display: *mut Display, config: &'static Config, id: Xid, kind: Ki
 
 /// glXCreatePbuffer.
 pub unsafe fn create_pbuffer(display: *mut Display, config: *const c_void, list: *const c_int) -> Xid {
-    guarded(|| {
+    let make = || {
         // SAFETY: the program vouches for its list.
         let wanted = unsafe { attributes::read(list, &[]) };
         let get = |attribute| value(&wanted, attribute).unwrap_or(0);
         let is_largest = get(GLX_LARGEST_PBUFFER) != 0;
         // SAFETY: the program vouches for its display.
         unsafe { pbuffer(display, config, get(GLX_PBUFFER_WIDTH), get(GLX_PBUFFER_HEIGHT), is_largest) }
-    })
-    .flatten()
-    .unwrap_or(0)
+    };
+    // SAFETY: the program vouches for its display.
+    unsafe { or_raise(display, Request::CreatePbuffer, 0, make) }
 }
 
 /// glXCreateGLXPbufferSGIX.
@@ -76,16 +104,16 @@ pub unsafe fn create_glx_pbuffer(
     height: c_uint,
     list: *const c_int,
 ) -> Xid {
-    guarded(|| {
+    let make = || {
         // SAFETY: the program vouches for its list.
         let wanted = unsafe { attributes::read(list, &[]) };
         let is_largest = value(&wanted, GLX_LARGEST_PBUFFER_SGIX).unwrap_or(0) != 0;
         let extent = |size: c_uint| i32::try_from(size).unwrap_or(i32::MAX);
         // SAFETY: the program vouches for its display.
         unsafe { pbuffer(display, config, extent(width), extent(height), is_largest) }
-    })
-    .flatten()
-    .unwrap_or(0)
+    };
+    // SAFETY: the program vouches for its display.
+    unsafe { or_raise(display, Request::CreatePbuffer, 0, make) }
 }
 
 /// # Safety
@@ -96,23 +124,30 @@ unsafe fn pbuffer(
     width: i32,
     height: i32,
     is_largest: bool,
-) -> Option<Xid> {
-    let config = config::from_handle(config)?;
+) -> Result<Xid, Fault> {
+    let config = config::from_handle(config).ok_or(Fault::BadFBConfig)?;
     let is_possible = |size| (0..=PBUFFER_EXTENT).contains(&size);
     if !(is_largest || is_possible(width) && is_possible(height)) {
-        return None;
+        return Err(Fault::BadAlloc);
     }
     let size = [width, height].map(|size| size.clamp(1, PBUFFER_EXTENT) as u32);
     // SAFETY: the caller vouches for the display, which is not null from here on.
     unsafe {
-        let server = displays::get(display)?.server.clone();
-        Some(drawables::create(display, Kind::Pbuffer, config, server, size.into()))
+        let server = displays::get(display).ok_or(Fault::BadValue)?.server.clone();
+        Ok(drawables::create(display, Kind::Pbuffer, config, server, size.into()))
     }
 }
 
-/// glXDestroyWindow and its like: takes the drawable's id away.
-pub fn destroy_drawable(display: *mut Display, drawable: Xid) {
-    guarded(|| drawables::destroy(display, drawable));
+/// glXDestroyWindow and its like: takes the drawable's id away. An X error if there is none, or its window is gone.
+pub unsafe fn destroy_drawable(display: *mut Display, drawable: Xid, fault: Fault, request: Request) {
+    // SAFETY: the program vouches for its display.
+    let was_there = guarded(|| unsafe {
+        drawables::destroy(display, drawable).is_some_and(|found| found.refresh_size(display))
+    });
+    if was_there == Some(false) {
+        // SAFETY: as above.
+        guarded(|| unsafe { errors::raise(display, fault, request, drawable) });
+    }
 }
 
 /// glXQueryDrawable.

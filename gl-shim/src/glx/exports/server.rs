@@ -7,11 +7,12 @@ use afterglow_api::constants::glx::*;
 
 use super::put;
 use crate::boundary::guarded;
+use crate::glx::displays::{self, Codes};
 use crate::glx::proc_address;
-use crate::glx::xlib::{self, Display};
+use crate::glx::xlib::Display;
 
-const EXTENSIONS: &CStr = c"GLX_ARB_create_context GLX_ARB_get_proc_address GLX_EXT_swap_control \
-GLX_EXT_visual_info GLX_EXT_visual_rating GLX_MESA_swap_control GLX_SGI_make_current_read GLX_SGI_swap_control \
+const EXTENSIONS: &CStr = c"GLX_ARB_create_context GLX_ARB_create_context_profile GLX_ARB_get_proc_address \
+GLX_EXT_swap_control GLX_EXT_visual_info GLX_EXT_visual_rating GLX_MESA_swap_control GLX_SGI_make_current_read GLX_SGI_swap_control \
 GLX_SGIX_fbconfig GLX_SGIX_pbuffer ";
 
 /// glXQueryExtension. Error and event codes are those of the server's own GLX, if it has it.
@@ -20,19 +21,13 @@ pub unsafe fn query_extension(
     error_base: *mut c_int,
     event_base: *mut c_int,
 ) -> c_int {
-    let codes = guarded(|| {
-        let (mut opcode, mut event, mut error) = (0, 0, 0);
-        if let Some(xlib) = xlib::get().filter(|_| !display.is_null()) {
-            // SAFETY: the program vouches for the display.
-            unsafe { (xlib.query_extension)(display, c"GLX".as_ptr(), &mut opcode, &mut event, &mut error) };
-        }
-        (error, event)
-    });
-    let (error, event) = codes.unwrap_or_default();
+    // SAFETY: the program vouches for the display.
+    let known = guarded(|| unsafe { displays::get(display) }).flatten();
+    let Codes { first_error, first_event, .. } = known.map_or_else(Codes::default, |known| known.codes);
     // SAFETY: the program vouches for its pointers.
-    unsafe { put(error_base, error) };
+    unsafe { put(error_base, first_error) };
     // SAFETY: as above.
-    unsafe { put(event_base, event) };
+    unsafe { put(event_base, first_event) };
     1
 }
 

@@ -4,6 +4,7 @@
 use std::ffi::{c_char, c_int, c_uint, c_ulong, c_void};
 
 use super::{configs, contexts, drawables, fonts, server, swap};
+use crate::glx::errors::{Fault, Request};
 use crate::glx::xlib::{Display, VisualInfo, Xid};
 use crate::record;
 use crate::record::glx::Kind::{
@@ -109,21 +110,21 @@ entry_points! {
     fn glXCreateNewContext(
         dpy: *mut Display as Pointer, config: *const c_void as Pointer, renderType: c_int as Attribute,
         shareList: *mut c_void as Pointer, direct: c_int as Bool,
-    ) -> *mut c_void as Pointer => contexts::create_new_context(config, renderType, shareList);
+    ) -> *mut c_void as Pointer => contexts::create_new_context(dpy, config, renderType, shareList);
     fn glXCreateContextWithConfigSGIX(
         dpy: *mut Display as Pointer, config: *const c_void as Pointer, render_type: c_int as Attribute,
         share_list: *mut c_void as Pointer, direct: c_int as Bool,
-    ) -> *mut c_void as Pointer => contexts::create_new_context(config, render_type, share_list);
+    ) -> *mut c_void as Pointer => contexts::create_new_context(dpy, config, render_type, share_list);
     fn glXCreateContextAttribsARB(
         dpy: *mut Display as Pointer, config: *const c_void as Pointer, share_context: *mut c_void as Pointer,
         direct: c_int as Bool, attrib_list: *const c_int as CONTEXT_ATTRIBUTES,
-    ) -> *mut c_void as Pointer => contexts::create_context_attribs(config, share_context, attrib_list);
+    ) -> *mut c_void as Pointer => contexts::create_context_attribs(dpy, config, share_context, attrib_list);
     fn glXDestroyContext(dpy: *mut Display as Pointer, ctx: *mut c_void as Pointer) => contexts::destroy_context(ctx);
     fn glXFreeContextEXT(dpy: *mut Display as Pointer, context: *mut c_void as Pointer)
         => contexts::destroy_context(context);
     fn glXCopyContext(
         dpy: *mut Display as Pointer, src: *mut c_void as Pointer, dst: *mut c_void as Pointer, mask: c_ulong as Id,
-    ) => contexts::copy_context(mask);
+    ) => contexts::copy_context(dpy, src, dst, mask);
     fn glXIsDirect(dpy: *mut Display as Pointer, ctx: *mut c_void as Pointer)
         -> c_int as Bool => contexts::is_direct(ctx);
     fn glXQueryContext(
@@ -138,13 +139,13 @@ entry_points! {
 
     // What is current.
     fn glXMakeCurrent(dpy: *mut Display as Pointer, drawable: Xid as Id, ctx: *mut c_void as Pointer)
-        -> c_int as Bool => contexts::make_current(dpy, drawable, drawable, ctx), then contexts::record_drawable_size();
+        -> c_int as Bool => contexts::make_current(dpy, (drawable, drawable), ctx, Request::MakeCurrent), then contexts::record_drawable_size();
     fn glXMakeContextCurrent(
         dpy: *mut Display as Pointer, draw: Xid as Id, read: Xid as Id, ctx: *mut c_void as Pointer,
-    ) -> c_int as Bool => contexts::make_current(dpy, draw, read, ctx), then contexts::record_drawable_size();
+    ) -> c_int as Bool => contexts::make_current(dpy, (draw, read), ctx, Request::MakeContextCurrent), then contexts::record_drawable_size();
     fn glXMakeCurrentReadSGI(
         dpy: *mut Display as Pointer, draw: Xid as Id, read: Xid as Id, ctx: *mut c_void as Pointer,
-    ) -> c_int as Bool => contexts::make_current(dpy, draw, read, ctx), then contexts::record_drawable_size();
+    ) -> c_int as Bool => contexts::make_current(dpy, (draw, read), ctx, Request::MakeContextCurrent), then contexts::record_drawable_size();
     fn glXGetCurrentContext() -> *mut c_void as Pointer => contexts::get_current_context();
     fn glXGetCurrentDrawable() -> Xid as Id => contexts::get_current_drawable();
     fn glXGetCurrentReadDrawable() -> Xid as Id => contexts::get_current_read_drawable();
@@ -176,13 +177,13 @@ entry_points! {
         dpy: *mut Display as Pointer, config: *const c_void as Pointer, width: c_uint as Id, height: c_uint as Id,
         attrib_list: *const c_int as DRAWABLE_ATTRIBUTES,
     ) -> Xid as Id => drawables::create_glx_pbuffer(dpy, config, width, height, attrib_list);
-    fn glXDestroyWindow(dpy: *mut Display as Pointer, window: Xid as Id) => drawables::destroy_drawable(dpy, window);
-    fn glXDestroyPixmap(dpy: *mut Display as Pointer, pixmap: Xid as Id) => drawables::destroy_drawable(dpy, pixmap);
+    fn glXDestroyWindow(dpy: *mut Display as Pointer, window: Xid as Id) => drawables::destroy_drawable(dpy, window, Fault::BadWindow, Request::DestroyWindow);
+    fn glXDestroyPixmap(dpy: *mut Display as Pointer, pixmap: Xid as Id) => drawables::destroy_drawable(dpy, pixmap, Fault::BadPixmap, Request::DestroyPixmap);
     fn glXDestroyGLXPixmap(dpy: *mut Display as Pointer, pixmap: Xid as Id)
-        => drawables::destroy_drawable(dpy, pixmap);
-    fn glXDestroyPbuffer(dpy: *mut Display as Pointer, pbuf: Xid as Id) => drawables::destroy_drawable(dpy, pbuf);
+        => drawables::destroy_drawable(dpy, pixmap, Fault::BadPixmap, Request::DestroyGlxPixmap);
+    fn glXDestroyPbuffer(dpy: *mut Display as Pointer, pbuf: Xid as Id) => drawables::destroy_drawable(dpy, pbuf, Fault::BadPbuffer, Request::DestroyPbuffer);
     fn glXDestroyGLXPbufferSGIX(dpy: *mut Display as Pointer, pbuf: Xid as Id)
-        => drawables::destroy_drawable(dpy, pbuf);
+        => drawables::destroy_drawable(dpy, pbuf, Fault::BadPbuffer, Request::DestroyPbuffer);
     fn glXQueryDrawable(
         dpy: *mut Display as Pointer, draw: Xid as Id, attribute: c_int as Attribute,
         value: *mut c_uint as WrittenUint,

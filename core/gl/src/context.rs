@@ -109,6 +109,11 @@ impl Context {
             self.record_error(GL_INVALID_OPERATION);
             return GL_NO_ERROR;
         }
+        self.take_error()
+    }
+
+    /// The error that is recorded, for a caller that is not the program: also between Begin and End.
+    pub fn take_error(&mut self) -> u32 {
         std::mem::replace(&mut self.error, GL_NO_ERROR)
     }
 

@@ -176,7 +176,7 @@ impl Player {
             Some(false) => tally.unsupported += 1,
             None => tally.malformed += 1,
         }
-        let error = gl.get_error();
+        let error = gl.take_error();
         if error != 0 {
             tallies.error(call.signature, error, call.number);
         }

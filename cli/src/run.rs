@@ -16,9 +16,9 @@ use crate::options::{DeviceArguments, Mode};
 /// Arguments of `run`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// How frames become pictures
-    #[arg(long, value_enum, default_value = "pathtrace", env = "AFTERGLOW_MODE")]
-    mode: Mode,
+    /// How frames become pictures. Unless it is said: by rays, and as OpenGL defines where rays turn out too slow to play
+    #[arg(long, value_enum, env = "AFTERGLOW_MODE")]
+    mode: Option<Mode>,
     /// Samples a pixel and frame (pathtrace)
     #[arg(long, value_name = "N", default_value_t = 1, env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
     spp: u32,
@@ -76,9 +76,11 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
         .env("SDL_OPENGL_LIBRARY", &library)
         .env("SDL_VIDEODRIVER", "x11")
         .env("SDL_VIDEO_DRIVER", "x11")
-        .env("AFTERGLOW_MODE", arguments.mode.name())
         .env("AFTERGLOW_SPP", arguments.spp.to_string())
         .env("AFTERGLOW_SEED", arguments.seed.to_string());
+    if let Some(mode) = arguments.mode {
+        command.env("AFTERGLOW_MODE", mode.name());
+    }
     if let Some(device) = &arguments.device.device {
         command.env("AFTERGLOW_DEVICE", device);
     }

@@ -39,7 +39,7 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
             faults: faults(variable),
             ..GpuOptions::default()
         },
-        mode: parsed(variable, "AFTERGLOW_MODE", mode).unwrap_or(Mode::Pathtrace),
+        mode: parsed(variable, "AFTERGLOW_MODE", mode),
         pathtrace,
         hud: parsed(variable, "AFTERGLOW_HUD", flag).unwrap_or(false),
     }
@@ -111,9 +111,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_set_traces_paths() {
+    fn nothing_set_leaves_the_mode_to_the_device() {
         let options = from_variables(&|_| None);
-        assert_eq!(options.mode, Mode::Pathtrace);
+        assert_eq!(options.mode, None);
         assert!(!options.gpu.validation && options.gpu.device.is_none());
         assert_eq!(options.pathtrace.spp, 1);
     }
@@ -132,7 +132,7 @@ mod tests {
             };
             Some(value.to_owned())
         });
-        assert_eq!(options.mode, Mode::Raster);
+        assert_eq!(options.mode, Some(Mode::Raster));
         assert!(options.gpu.validation && options.gpu.device.is_none());
         assert_eq!((options.pathtrace.spp, options.pathtrace.seed), (1, 0));
         assert!(options.hud && options.gpu.faults.losses.is_empty());

@@ -18,6 +18,7 @@ mod message;
 mod pace;
 mod port;
 mod queue;
+mod slowness;
 mod state;
 mod thread;
 mod window;

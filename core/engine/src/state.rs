@@ -16,6 +16,7 @@ use crate::drawable::Drawable;
 use crate::failures::Failures;
 use crate::life::Ending;
 use crate::message::Message;
+use crate::slowness::{self, Slowness};
 use crate::thread::EngineOptions;
 use crate::window::{Stage, Wanted, Window};
 use crate::xcb::Servers;
@@ -31,6 +32,9 @@ pub(crate) struct State {
     /// None once it is given up: frames are dropped then.
     gpu: Option<Gpu>,
     options: EngineOptions,
+    /// What frames become now.
+    mode: Mode,
+    slowness: Slowness,
     recycled: Arc<Mutex<Vec<Frame>>>,
     /// By share group.
     renderers: HashMap<u64, Renderer>,
@@ -54,6 +58,8 @@ impl State {
     ) -> Self {
         Self {
             gpu: Some(gpu),
+            mode: options.mode.unwrap_or(Mode::Pathtrace),
+            slowness: Slowness::default(),
             options,
             recycled,
             renderers: HashMap::new(),
@@ -101,8 +107,10 @@ impl State {
             }
             Message::DropGroup { group } => self.drop_group(group),
             Message::Frame { group, drawable, frame, end, handed_over } => {
+                let begun = Instant::now();
                 if self.frame(group, &drawable, frame, end) && end != End::Continued {
                     self.present(&drawable);
+                    self.judge_speed(begun.elapsed());
                     self.note_pace(&drawable, handed_over);
                 }
             }
@@ -126,7 +134,7 @@ impl State {
         }
         let (empty, mode) = (renderer.recycle(), renderer.mode());
         // It may have found that it cannot trace.
-        self.options.mode = mode;
+        self.mode = mode;
         let mut recycled = self.recycled.lock();
         if recycled.len() < RECYCLED_FRAMES {
             recycled.push(empty);
@@ -148,6 +156,25 @@ impl State {
     /// Whether a frame was begun before the images were lost that it names.
     fn is_stale(&self, frame: &Frame) -> bool {
         frame.device != self.device_number.load(Ordering::Relaxed)
+    }
+
+    /// Gives tracing up where nobody insists on it and it takes too long.
+    fn judge_speed(&mut self, taken: Duration) {
+        if self.mode == Mode::Raster || self.options.mode.is_some() {
+            return;
+        }
+        if self.slowness.note(taken) {
+            tracing::warn!(
+                "path tracing takes more than {} ms a frame here: frames are rasterized from now on \
+                 (AFTERGLOW_MODE=pathtrace insists)",
+                slowness::MOST.as_millis()
+            );
+            self.mode = Mode::Raster;
+            for renderer in self.renderers.values_mut() {
+                // Only ever fails where something is made.
+                let _ = renderer.set_mode(self.mode, &self.options.pathtrace);
+            }
+        }
     }
 
     fn note_pace(&mut self, drawable: &Drawable, handed_over: Instant) {
@@ -220,7 +247,7 @@ impl State {
         // A processor that plays the device would have to wait for each pass.
         options.timing = self.options.hud && gpu.info().kind != DeviceKind::Cpu;
         let mut renderer = Renderer::new(gpu, &options)?;
-        match renderer.set_mode(self.options.mode, &self.options.pathtrace) {
+        match renderer.set_mode(self.mode, &self.options.pathtrace) {
             Err(error) if error.is_out_of_memory() => {
                 tracing::error!("path tracing is off, frames are rasterized: {error}");
             }
@@ -270,12 +297,12 @@ impl State {
         if self.failures.allow(Instant::now()) {
             return true;
         }
-        if self.options.mode == Mode::Raster {
+        if self.mode == Mode::Raster {
             tracing::error!("{what} again and again: nothing is drawn any more");
             return false;
         }
         tracing::error!("{what} again and again: path tracing is off, frames are rasterized");
-        self.options.mode = Mode::Raster;
+        self.mode = Mode::Raster;
         self.failures = Failures::default();
         true
     }

@@ -22,8 +22,8 @@ use crate::xcb::Servers;
 pub struct EngineOptions {
     /// Which device.
     pub gpu: GpuOptions,
-    /// What frames become.
-    pub mode: Mode,
+    /// What frames become. Unless it is said, paths are traced where that is fast enough to play.
+    pub mode: Option<Mode>,
     /// How worlds are traced.
     pub pathtrace: PathtraceOptions,
     /// Show a line of figures in windows.

@@ -37,7 +37,7 @@ impl Program {
     }
 
     pub(crate) fn on(surface: Surface, mode: Mode, faults: &Faults, hud: bool) -> Self {
-        let mut options = EngineOptions { mode, hud, ..EngineOptions::default() };
+        let mut options = EngineOptions { mode: Some(mode), hud, ..EngineOptions::default() };
         options.gpu = GpuOptions { faults: faults.clone(), ..GpuOptions::for_tests() };
         options.pathtrace.accumulate = false;
         let engine = Engine::start(options).unwrap();

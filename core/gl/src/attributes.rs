@@ -58,7 +58,7 @@ impl Context {
             let (position, edge) = ([x, y, z, w], gl.state.current.edge_flag);
             match &mut gl.list {
                 Some(list) if gl.immediate.mode.is_none() => list.loose_vertex(position),
-                Some(list) => gl.immediate.push(position, edge, list.inside()),
+                Some(list) => gl.immediate.push(position, list.edge(), list.inside()),
                 None if gl.immediate.mode.is_none() => {}
                 None => gl.immediate.push(position, edge, &gl.state.current.attributes),
             }
@@ -143,11 +143,23 @@ impl Context {
 
     /// glEdgeFlag.
     pub fn edge_flag(&mut self, flag: bool) {
+        if let Some(list) = &mut self.list {
+            list.edge_flag(flag, self.immediate.mode.is_some());
+            if !list.executes {
+                return;
+            }
+        }
         self.state.current.edge_flag = flag;
     }
 
     /// glIndex.
     pub fn index(&mut self, index: f32) {
+        if let Some(list) = &mut self.list {
+            list.index(index);
+            if !list.executes {
+                return;
+            }
+        }
         self.state.current.index = index;
     }
 

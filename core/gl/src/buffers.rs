@@ -56,6 +56,9 @@ impl Default for BufferObject {
 impl Context {
     /// glGenBuffers.
     pub fn gen_buffers(&mut self, n: i32) -> Vec<u32> {
+        if self.refuses_in_begin() {
+            return Vec::new();
+        }
         if !(0..=limits::GENERATED_NAMES).contains(&n) {
             self.record_error(GL_INVALID_VALUE);
             return Vec::new();
@@ -65,6 +68,9 @@ impl Context {
 
     /// glDeleteBuffers. What is bound here becomes unbound.
     pub fn delete_buffers(&mut self, names: &[u32]) {
+        if self.refuses_in_begin() {
+            return;
+        }
         for name in names.iter().filter(|&&n| n != 0) {
             self.shared.lock().buffers.remove(name);
             self.client.unbind(*name);
@@ -73,7 +79,7 @@ impl Context {
 
     /// glIsBuffer.
     pub fn is_buffer(&mut self, name: u32) -> bool {
-        matches!(self.shared.lock().buffers.get(&name), Some(Some(_)))
+        !self.refuses_in_begin() && matches!(self.shared.lock().buffers.get(&name), Some(Some(_)))
     }
 
     /// glBindBuffer.
@@ -84,9 +90,6 @@ impl Context {
         let Some(slot) = self.client.binding_mut(target) else {
             return self.record_error(GL_INVALID_ENUM);
         };
-        if slot.as_ref().map_or(0, |(bound, _)| *bound) == name {
-            return;
-        }
         *slot = (name != 0).then(|| {
             let mut names = self.shared.lock();
             let entry = names.buffers.entry(name).or_default();
@@ -95,6 +98,9 @@ impl Context {
     }
 
     fn bound_buffer(&mut self, target: u32) -> Option<SharedBuffer> {
+        if self.refuses_in_begin() {
+            return None;
+        }
         let Some(slot) = self.client.binding_mut(target) else {
             self.record_error(GL_INVALID_ENUM);
             return None;

@@ -173,6 +173,9 @@ impl Context {
         self.output.note(&self.frame, end);
         let frame = self.take_frame();
         self.backend.submit(frame, end);
+        if end != End::Continued {
+            self.ranges.next_frame();
+        }
         self.follow_device();
     }
 

@@ -153,14 +153,16 @@ impl Immediate {
     }
 
     /// Vertices to come have an attribute as wide as `value`. `before` is what holds for the vertices so far if the
-    /// attribute was not among theirs.
+    /// attribute was not among theirs: then it must be wide enough for that, too, and a list does not know it yet.
     pub fn admit(&mut self, slot: usize, value: [f32; 4], before: [f32; 4]) {
-        let words = tightest(slot, value).words() as u8;
+        let mut words = tightest(slot, value).words() as u8;
         if self.mode.is_none() || words <= self.held[slot] {
             return;
         }
         if self.held[slot] == 0 && self.used > 0 {
             self.late.push((slot, self.count()));
+            let unknown = [f32::NAN; 4];
+            words = words.max(tightest(slot, if self.is_watched { unknown } else { before }).words() as u8);
         }
         self.held[slot] = words;
         if self.used > 0 {
@@ -311,7 +313,7 @@ mod tests {
             caller.vertex([1.0, 2.0, 0.0, 1.0]);
             caller.attribute(Slot::Color, [0.1, 0.2, 0.3, 1.0]);
             caller.vertex([3.0, 4.0, 5.0, 1.0]);
-            let expected = [1.0, 2.0, 0.0, 0.5, 0.6, 0.7, 3.0, 4.0, 5.0, 0.1, 0.2, 0.3];
+            let expected = [1.0, 2.0, 0.0, 0.5, 0.6, 0.7, 0.8, 3.0, 4.0, 5.0, 0.1, 0.2, 0.3, 1.0];
             assert_eq!(caller.floats(), expected);
             assert_eq!(caller.immediate.late, [(Slot::Color as usize, 1)]);
         }

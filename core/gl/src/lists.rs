@@ -27,6 +27,10 @@ pub enum ListItem {
     Primitive(Box<ListPrimitive>),
     /// A current attribute.
     Attribute(usize, [f32; 4]),
+    /// glEdgeFlag.
+    EdgeFlag(bool),
+    /// glIndex.
+    Index(f32),
     /// glVertex outside of the list's own Begin and End.
     LooseVertex([f32; 4]),
     /// glMaterial.
@@ -66,6 +70,8 @@ pub struct ListBuilder {
     inside: [Vec4; SLOTS],
     /// Which of them were given.
     given: [bool; SLOTS],
+    /// The edge flag, as far as the list knows it.
+    edge: bool,
 }
 
 /// Primitives of one kind and layout in a row, which become one range.
@@ -76,6 +82,8 @@ struct Run {
     indices: Vec<u32>,
     /// Attributes that are current after the primitives.
     trailing: Vec<(usize, [f32; 4])>,
+    /// The edge flag that is, if they have any.
+    trailing_edge: Option<bool>,
 }
 
 impl ListBuilder {
@@ -118,6 +126,26 @@ impl ListBuilder {
         &self.inside
     }
 
+    /// Records glEdgeFlag; between Begin and End it is part of the vertices, and current after them.
+    pub fn edge_flag(&mut self, flag: bool, inside: bool) {
+        self.edge = flag;
+        if inside {
+            self.run.trailing_edge = Some(flag);
+        } else {
+            self.item(ListItem::EdgeFlag(flag));
+        }
+    }
+
+    /// The edge flag of vertices.
+    pub fn edge(&self) -> bool {
+        self.edge
+    }
+
+    /// Records glIndex, which no vertex has.
+    pub fn index(&mut self, index: f32) {
+        self.item(ListItem::Index(index));
+    }
+
     /// Records glMaterial.
     pub fn material(&mut self, face: u32, pname: u32, values: Values) {
         self.item(ListItem::Material(face, pname, values));
@@ -142,6 +170,7 @@ impl ListBuilder {
             let range = RetainedRange::new(layout, run.words, run.indices);
             self.items.push(ListItem::Draw(Arc::new(range), kind));
         }
+        self.items.extend(run.trailing_edge.map(ListItem::EdgeFlag));
         self.items.extend(run.trailing.into_iter().map(|(slot, value)| ListItem::Attribute(slot, value)));
     }
 
@@ -186,6 +215,7 @@ impl Context {
             run: Run::default(),
             inside: [Vec4::ZERO; SLOTS],
             given: [false; SLOTS],
+            edge: self.state.current.edge_flag,
         }));
         self.immediate.watch(true);
     }
@@ -297,6 +327,8 @@ impl Context {
             ListItem::Draw(range, kind) => self.run_draw(range, *kind),
             ListItem::Primitive(primitive) => self.run_primitive(primitive),
             ListItem::Attribute(slot, value) => self.attribute(*slot, *value),
+            ListItem::EdgeFlag(flag) => self.edge_flag(*flag),
+            ListItem::Index(index) => self.index(*index),
             ListItem::LooseVertex(position) => self.vertex(*position),
             ListItem::Material(face, pname, values) => self.exec_material(*face, *pname, *values),
             ListItem::Call(name) => self.run_list(*name),

@@ -74,7 +74,7 @@ impl Context {
             return self.record_error(GL_INVALID_ENUM);
         };
         let unit = self.state.texture.active;
-        if self.textures.bound[unit][index].0 == name {
+        if self.textures.bound[unit][index].0 == 0 && name == 0 {
             return;
         }
         let texture = if name == 0 {
@@ -84,6 +84,10 @@ impl Context {
             let entry = names.textures.entry(name).or_default();
             entry.get_or_insert_with(|| Arc::new(Mutex::new(TextureObject::new(target)))).clone()
         };
+        // The name may be another texture's by now, if another context has deleted it.
+        if Arc::ptr_eq(&self.textures.bound[unit][index].1, &texture) {
+            return;
+        }
         if texture.lock().target() != target {
             return self.record_error(GL_INVALID_OPERATION);
         }

@@ -293,6 +293,106 @@ fn unchanged_buffers_become_a_range_that_a_change_replaces() {
 }
 
 #[test]
+fn buffers_that_are_written_for_each_frame_are_not_kept() {
+    let (mut gl, recorder) = context();
+    gl.bind_buffer(GL_ARRAY_BUFFER, 1);
+    gl.enable_client_state(GL_VERTEX_ARRAY);
+    gl.vertex_pointer(2, GL_FLOAT, 0, Pointer::Offset(0));
+    for frame in 0..3u8 {
+        gl.buffer_data(GL_ARRAY_BUFFER, 24, Some(&[frame; 24]), GL_STREAM_DRAW);
+        gl.draw_arrays(GL_TRIANGLES, 0, 3);
+        gl.draw_arrays(GL_TRIANGLES, 0, 3);
+        gl.swap_buffers();
+        let (frame, _) = recorder.0.lock().unwrap().pop().unwrap();
+        assert!(frame.retained.is_empty() && !draws(&frame).is_empty());
+    }
+}
+
+#[test]
+fn a_range_that_is_not_drawn_for_long_is_forgotten() {
+    let (mut gl, recorder) = context();
+    gl.bind_buffer(GL_ARRAY_BUFFER, 1);
+    gl.buffer_data(GL_ARRAY_BUFFER, 24, None, GL_STATIC_DRAW);
+    gl.enable_client_state(GL_VERTEX_ARRAY);
+    gl.vertex_pointer(2, GL_FLOAT, 0, Pointer::Offset(0));
+    let mut range = std::sync::Weak::new();
+    for frame in 0..1000 {
+        if frame < 2 {
+            gl.draw_arrays(GL_TRIANGLES, 0, 3);
+        }
+        gl.swap_buffers();
+        let (handed_over, _) = recorder.0.lock().unwrap().pop().unwrap();
+        if frame == 1 {
+            range = Arc::downgrade(&handed_over.retained[0]);
+        }
+        assert!(frame != 100 || range.upgrade().is_some());
+    }
+    assert!(range.upgrade().is_none());
+}
+
+#[test]
+fn a_late_attribute_leaves_the_vertices_before_all_of_their_value() {
+    let primitive = |gl: &mut Context| {
+        gl.begin(GL_TRIANGLES);
+        gl.vertex([0.0, 0.0, 0.0, 1.0]);
+        gl.color([0.0, 1.0, 0.0, 1.0]);
+        gl.vertex([1.0, 0.0, 0.0, 1.0]);
+        gl.vertex([0.0, 1.0, 0.0, 1.0]);
+        gl.end();
+    };
+    let drawn = frame(|gl| {
+        gl.color([1.0, 1.0, 1.0, 0.25]);
+        primitive(gl);
+    });
+    let called = frame(|gl| {
+        gl.new_list(1, GL_COMPILE);
+        primitive(gl);
+        gl.end_list();
+        gl.color([1.0, 1.0, 1.0, 0.25]);
+        gl.call_list(1);
+    });
+    for frame in [drawn, called] {
+        let draw = draws(&frame)[0];
+        assert_eq!(attribute(&frame, draw, 0, Slot::Color), [1.0, 1.0, 1.0, 0.25]);
+        assert_eq!(attribute(&frame, draw, 1, Slot::Color), [0.0, 1.0, 0.0, 1.0]);
+    }
+}
+
+#[test]
+fn edge_flags_and_indices_wait_in_lists() {
+    let (mut gl, _) = context();
+    gl.new_list(1, GL_COMPILE);
+    gl.edge_flag(false);
+    gl.index(7.0);
+    gl.end_list();
+    assert_eq!((gl.get_boolean(GL_EDGE_FLAG), gl.get_float(GL_CURRENT_INDEX)), (vec![true], vec![1.0]));
+    gl.call_list(1);
+    assert_eq!((gl.get_boolean(GL_EDGE_FLAG), gl.get_float(GL_CURRENT_INDEX)), (vec![false], vec![7.0]));
+}
+
+#[test]
+fn a_name_that_another_context_gave_a_new_object_is_bound_anew() {
+    let (mut gl, _) = context();
+    let mut other = Context::new(Box::<Recorder>::default(), gl.shared_names());
+    for context in [&mut gl, &mut other] {
+        context.bind_buffer(GL_ARRAY_BUFFER, 1);
+        context.bind_texture(GL_TEXTURE_2D, 1);
+    }
+    other.delete_buffers(&[1]);
+    other.delete_textures(&[1]);
+    other.bind_buffer(GL_ARRAY_BUFFER, 1);
+    other.buffer_data(GL_ARRAY_BUFFER, 12, None, GL_STATIC_DRAW);
+    other.bind_texture(GL_TEXTURE_2D, 1);
+    other.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, Params::Ints(&[GL_CLAMP as i32]));
+    let wrap = |gl: &mut Context| gl.get_tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S).unwrap().floats();
+    let size = |gl: &mut Context| gl.get_buffer_parameter(GL_ARRAY_BUFFER, GL_BUFFER_SIZE);
+    assert_eq!((size(&mut gl), wrap(&mut gl)), (Some(0), vec![GL_REPEAT as f32]));
+    gl.bind_buffer(GL_ARRAY_BUFFER, 1);
+    gl.bind_texture(GL_TEXTURE_2D, 1);
+    assert_eq!((size(&mut gl), wrap(&mut gl)), (Some(12), vec![GL_CLAMP as f32]));
+}
+
+#[test]
 fn mapped_buffers_change_when_they_are_unmapped() {
     let (mut gl, _) = context();
     let names = gl.gen_buffers(1);

@@ -131,6 +131,15 @@ impl Client {
         self.frame.camera = Some(camera);
     }
 
+    /// Begins a frame that shows a world: says so, clears, sets the matrices, and switches textures on.
+    pub fn begin_world(&mut self, world: u32, camera: TrueCamera) {
+        self.look(world, camera);
+        self.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        self.projection(camera.projection);
+        self.modelview(camera.view);
+        self.enable(GL_TEXTURE_2D);
+    }
+
     /// Says that a light shines.
     pub fn shine(&mut self, light: TrueLight) {
         self.frame.lights.push(light);
@@ -317,13 +326,20 @@ impl Client {
 
     /// Draws a mesh out of arrays in the program's memory.
     pub fn draw_arrays(&mut self, thing: Thing, mesh: &Mesh, attributes: Attributes) {
-        for primitive in &mesh.primitives {
-            self.arrays(&primitive.vertices, attributes, true);
-            let count = primitive.vertices.len() as i32;
-            self.calls.call(id::glDrawArrays, &[primitive.mode.into(), 0.into(), count.into()]);
-            self.arrays(&[], attributes, false);
-        }
+        self.emit_arrays(mesh, attributes);
         self.count(thing, mesh.triangles());
+    }
+
+    /// Draws meshes of separate polygons as one batch.
+    pub fn draw_batch(&mut self, parts: &[(Thing, &Mesh)], attributes: Attributes) {
+        let mut batch = Mesh::default();
+        for (_, mesh) in parts {
+            batch.append(mesh);
+        }
+        self.emit_arrays(&batch, attributes);
+        for (thing, mesh) in parts {
+            self.count(*thing, mesh.triangles());
+        }
     }
 
     /// Compiles a mesh into a display list.
@@ -348,6 +364,15 @@ impl Client {
                 self.vertex(vertex, attributes);
             }
             self.calls.call(id::glEnd, &[]);
+        }
+    }
+
+    fn emit_arrays(&mut self, mesh: &Mesh, attributes: Attributes) {
+        for primitive in &mesh.primitives {
+            self.arrays(&primitive.vertices, attributes, true);
+            let count = primitive.vertices.len() as i32;
+            self.calls.call(id::glDrawArrays, &[primitive.mode.into(), 0.into(), count.into()]);
+            self.arrays(&[], attributes, false);
         }
     }
 

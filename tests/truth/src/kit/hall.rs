@@ -81,6 +81,16 @@ impl Hall {
         })
     }
 
+    /// Colours the vertices by the light that falls there.
+    pub fn bake(&mut self) {
+        let lightmap = self.lightmap();
+        for cell in &mut self.cells {
+            for vertex in cell.walls.vertices_mut().chain(cell.floors.vertices_mut()) {
+                vertex.color = lightmap.at(vertex.light_uv);
+            }
+        }
+    }
+
     fn add_cell(&mut self, x: u32, z: u32, first_object: u64) {
         let corner = Vec3::new(x as f32, 0.0, z as f32) * SIDE;
         let [along_x, along_z, up] = [Vec3::X * SIDE, Vec3::Z * SIDE, Vec3::Y * SIDE];

@@ -39,12 +39,8 @@ impl super::Style for LightmapPasses {
     fn draw(&mut self, gl: &mut Client, frame: u32) {
         let view = walk(self.hall.centre(), self.hall.centre() * 0.55, f64::from(frame) / 100.0 + 0.3);
         let camera = TrueCamera { view, projection: perspective(70.0, 0.1, 100.0) };
-        gl.look(0, camera);
+        gl.begin_world(0, camera);
         self.hall.lights().into_iter().for_each(|light| gl.shine(light));
-        gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        gl.projection(camera.projection);
-        gl.modelview(view);
-        gl.enable(GL_TEXTURE_2D);
         let is_seen = |cell: &&Cell| in_sight(&camera, cell.centre, cell.radius);
         let seen: Vec<&Cell> = self.hall.cells.iter().filter(is_seen).collect();
         for (texture, is_wall) in [(self.walls, true), (self.floors, false)] {

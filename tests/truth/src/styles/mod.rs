@@ -1,7 +1,12 @@
 //! The styles: each a small program that draws as a kind of engine does.
 
+mod batches;
+mod cpu_animation;
 mod lightmap_passes;
+mod multitexture;
 mod one_matrix;
+mod own_matrices;
+mod scrolling;
 
 use std::io;
 
@@ -38,6 +43,36 @@ pub const STYLES: &[Entry] = &[
         has: "a base pass, then a lightmap multiplied where depth is equal; polygons cut by visibility",
         frames: 48,
         begin: |gl| Box::new(lightmap_passes::LightmapPasses::begin(gl)),
+    },
+    Entry {
+        name: "batches",
+        has: "the world in one batch a texture, gathered anew each frame",
+        frames: 48,
+        begin: |gl| Box::new(batches::Batches::begin(gl)),
+    },
+    Entry {
+        name: "multitexture",
+        has: "a lightmap on the second texture unit; display lists",
+        frames: 48,
+        begin: |gl| Box::new(multitexture::Multitexture::begin(gl)),
+    },
+    Entry {
+        name: "own_matrices",
+        has: "a matrix for each thing, whether it moves or not; a sun by glLight",
+        frames: 48,
+        begin: |gl| Box::new(own_matrices::OwnMatrices::begin(gl)),
+    },
+    Entry {
+        name: "cpu_animation",
+        has: "moving things transformed on the CPU, in world coordinates",
+        frames: 48,
+        begin: |gl| Box::new(cpu_animation::CpuAnimation::begin(gl)),
+    },
+    Entry {
+        name: "scrolling",
+        has: "texture coordinates that the program moves",
+        frames: 48,
+        begin: |gl| Box::new(scrolling::Scrolling::begin(gl)),
     },
 ];
 

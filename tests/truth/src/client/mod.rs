@@ -219,6 +219,12 @@ impl Client {
         self.calls.call(id::glAlphaFunc, &[GL_GREATER.into(), above.into()]);
     }
 
+    /// Passes where the stencil compares with 1, and does so with it then.
+    pub fn stencil(&mut self, compare: u32, operation: u32) {
+        self.calls.call(id::glStencilFunc, &[compare.into(), 1.into(), 255.into()]);
+        self.calls.call(id::glStencilOp, &[GL_KEEP.into(), GL_KEEP.into(), operation.into()]);
+    }
+
     /// glViewport: left, lower edge, width, height.
     pub fn viewport(&mut self, rect: [i32; 4]) {
         self.calls.call(id::glViewport, &rect.map(Arg::from));
@@ -247,9 +253,15 @@ impl Client {
 
     // ---- lights ---------------------------------------------------------------
 
-    /// Sets and enables glLight `index`, and says so. `view` is MODELVIEW at the time, through which OpenGL sees the
-    /// position.
+    /// Sets and enables glLight `index`, and says that it shines. `view` is MODELVIEW at the time, through which
+    /// OpenGL sees the position.
     pub fn light(&mut self, index: u8, view: DMat4, shape: TrueLightShape, color: Vec3) {
+        self.place_light(index, view, shape, color);
+        self.shine(TrueLight { shape, color, origin: TrueLightOrigin::Gl(index) });
+    }
+
+    /// Sets and enables glLight `index`, which may be the reflection of one that shines.
+    pub fn place_light(&mut self, index: u8, view: DMat4, shape: TrueLightShape, color: Vec3) {
         let light = GL_LIGHT0 + u32::from(index);
         self.modelview(view);
         let position = match shape {
@@ -268,7 +280,6 @@ impl Client {
             self.calls.call(id::glLightfv, &[light.into(), name.into(), Arg::Floats(&floats)]);
         }
         self.enable(light);
-        self.shine(TrueLight { shape, color, origin: TrueLightOrigin::Gl(index) });
     }
 
     // ---- textures -------------------------------------------------------------

@@ -1,12 +1,21 @@
 //! The styles: each a small program that draws as a kind of engine does.
 
 mod batches;
+mod billboards;
+mod chase;
 mod cpu_animation;
+mod gl_lights;
+mod hud_icons;
+mod level_change;
 mod lightmap_passes;
+mod mirror;
 mod multitexture;
 mod one_matrix;
 mod own_matrices;
 mod scrolling;
+mod sky_box;
+mod sky_dome;
+mod weapon;
 
 use std::io;
 
@@ -73,6 +82,60 @@ pub const STYLES: &[Entry] = &[
         has: "texture coordinates that the program moves",
         frames: 48,
         begin: |gl| Box::new(scrolling::Scrolling::begin(gl)),
+    },
+    Entry {
+        name: "billboards",
+        has: "trees, smoke and sparks that are turned to the camera",
+        frames: 48,
+        begin: |gl| Box::new(billboards::Billboards::begin(gl)),
+    },
+    Entry {
+        name: "sky_dome",
+        has: "a dome under the rotation of the view alone, before the world",
+        frames: 48,
+        begin: |gl| Box::new(sky_dome::SkyDome::begin(gl)),
+    },
+    Entry {
+        name: "sky_box",
+        has: "a box about the eye in world coordinates, after the world at the far depth",
+        frames: 48,
+        begin: |gl| Box::new(sky_box::SkyBox::begin(gl)),
+    },
+    Entry {
+        name: "hud_icons",
+        has: "things in perspective in small viewports of the status bar",
+        frames: 48,
+        begin: |gl| Box::new(hud_icons::HudIcons::begin(gl)),
+    },
+    Entry {
+        name: "weapon",
+        has: "a weapon with its own field of view and depth range; a lightmap in arrays",
+        frames: 48,
+        begin: |gl| Box::new(weapon::Weapon::begin(gl)),
+    },
+    Entry {
+        name: "chase",
+        has: "a camera that follows a heavy car; wheels; a dome",
+        frames: 48,
+        begin: |gl| Box::new(chase::Chase::begin(gl)),
+    },
+    Entry {
+        name: "mirror",
+        has: "a mirror: stencil, the room reflected, the floor blended",
+        frames: 48,
+        begin: |gl| Box::new(mirror::Mirror::begin(gl)),
+    },
+    Entry {
+        name: "level_change",
+        has: "a screen without a world, then another world",
+        frames: 48,
+        begin: |gl| Box::new(level_change::LevelChange::begin(gl)),
+    },
+    Entry {
+        name: "gl_lights",
+        has: "lamps by glLight that move",
+        frames: 48,
+        begin: |gl| Box::new(gl_lights::GlLights::begin(gl)),
     },
 ];
 

@@ -102,6 +102,8 @@ impl Client {
         client.viewport([0, 0, WINDOW.0, WINDOW.1]);
         client.enable(GL_DEPTH_TEST);
         client.depth_func(GL_LEQUAL);
+        // The default material takes a fifth of it: sides in shadow are dark, not black.
+        client.call(id::glLightModelfv, &[GL_LIGHT_MODEL_AMBIENT.into(), Arg::Floats(&[1.0; 4])]);
         Ok(client)
     }
 

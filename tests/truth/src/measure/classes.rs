@@ -1,6 +1,6 @@
 //! Classes: what share of the triangles was taken for what it is.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use serde::Serialize;
 
@@ -50,30 +50,42 @@ pub struct ClassScore {
     pub precision: Option<f64>,
     /// Of the settled ones.
     pub recall: Option<f64>,
+    /// For what settled triangles of the class were taken, where for another: class and number of triangles.
+    pub taken_for: BTreeMap<&'static str, u64>,
 }
 
 /// Scores all classes that occur.
 pub fn score(truth: &Truth, observed: &[Observed]) -> Vec<ClassScore> {
     let (mut settled, mut young) = ([Counts::default(); CLASSES.len()], [Counts::default(); CLASSES.len()]);
+    let mut taken_for = vec![BTreeMap::new(); CLASSES.len()];
     let mut ages = Ages::default();
     for (frame, observed) in truth.frames.iter().zip(observed) {
         for (label, run, count) in observed.beside(frame) {
-            let counts = if ages.of(label.object) < HYSTERESIS { &mut young } else { &mut settled };
+            let is_young = ages.of(label.object) < HYSTERESIS;
+            let counts = if is_young { &mut young } else { &mut settled };
             let (told, found) = (class_index(label.class), class_index(run.class));
+            if told != found && !is_young {
+                *taken_for[told].entry(CLASSES[found].1).or_default() += count;
+            }
             counts[told].told += count;
             counts[found].found += count;
             counts[told].right += if told == found { count } else { 0 };
         }
         ages.pass(frame);
     }
-    let scores = CLASSES.iter().zip(settled).zip(young).map(|((&(_, class), settled), young)| ClassScore {
-        class,
-        settled,
-        young,
-        precision: settled.precision(),
-        recall: settled.recall(),
-    });
+    let score = |(index, taken_for): (usize, BTreeMap<_, _>)| {
+        let (settled, young) = (settled[index], young[index]);
+        ClassScore {
+            class: CLASSES[index].1,
+            settled,
+            young,
+            precision: settled.precision(),
+            recall: settled.recall(),
+            taken_for,
+        }
+    };
     let occurs = |c: &Counts| c.told + c.found > 0;
+    let scores = taken_for.into_iter().enumerate().map(score);
     scores.filter(|score| occurs(&score.settled) || occurs(&score.young)).collect()
 }
 

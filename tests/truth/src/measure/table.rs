@@ -1,24 +1,26 @@
 //! Reports for people.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use super::Report;
 
-/// Writes a line a style and class: precision and recall of settled triangles in percent, and how many there are.
+/// Writes a line a style and class: how many settled triangles there are, precision and recall in percent, the recall of
+/// young ones; and a line a style on the camera.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
     writeln!(
         out,
-        "{:<18} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9}",
-        "style", "class", "triangles", "found", "precision", "recall", "young"
+        "{:<18} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9}  {}",
+        "style", "class", "triangles", "found", "precision", "recall", "young", "mostly taken for"
     )?;
     for report in reports {
         for score in &report.classes {
             writeln!(
                 out,
-                "{:<18} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9}",
+                "{:<18} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9}  {}",
                 report.style,
                 score.class,
                 score.settled.told,
@@ -26,6 +28,7 @@ pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
                 percent(score.precision),
                 percent(score.recall),
                 percent(score.young.recall()),
+                mostly(&score.taken_for),
             )?;
         }
     }
@@ -52,6 +55,11 @@ pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
         )?;
     }
     Ok(())
+}
+
+/// The class that most of those triangles were taken for.
+fn mostly(taken_for: &BTreeMap<&'static str, u64>) -> &'static str {
+    taken_for.iter().max_by_key(|(_, count)| **count).map_or("", |(class, _)| class)
 }
 
 /// A share in percent.

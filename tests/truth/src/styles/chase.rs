@@ -18,6 +18,7 @@ pub struct Chase {
     grass: Texture,
     paint: Texture,
     clouds: Texture,
+    in_pieces: bool,
 }
 
 /// The camera in the car's space: where it is, and what it looks at.
@@ -32,8 +33,9 @@ const WHEELS: [DVec3; 4] = [
 ];
 
 impl Chase {
-    /// Loads everything.
-    pub fn begin(gl: &mut Client) -> Chase {
+    /// Loads everything. The ground is in world coordinates, or `in_pieces` that each have a matrix: then nothing is drawn
+    /// under the view itself.
+    pub fn begin(gl: &mut Client, in_pieces: bool) -> Chase {
         let land = Land::new(5, 1);
         gl.set_extent(land.extent());
         Chase {
@@ -42,8 +44,9 @@ impl Chase {
             wheel: gl.list(&ring(0.3, 0.15, 14), Attributes::LIT),
             sky: gl.list(&dome(60.0, [100, 150, 250], [230, 235, 250]), Attributes::COLORED),
             grass: gl.texture(&Picture::grain(17, [0.42, 0.48, 0.3], 0.1)),
-            paint: gl.texture(&Picture::checker(1.0, [0.8, 0.1, 0.1], [0.85, 0.85, 0.8])),
+            paint: gl.texture(&Picture::checker(2.0, [0.8, 0.1, 0.1], [0.85, 0.85, 0.8])),
             clouds: gl.texture(&Picture::clouds()),
+            in_pieces,
         }
     }
 
@@ -98,8 +101,10 @@ impl super::Style for Chase {
         gl.light(0, view, TrueLightShape::Directional { to_light }, Vec3::ONE);
         gl.bind(self.grass);
         for cell in self.land.cells.iter().filter(|cell| in_sight(&camera, cell.centre, cell.radius)) {
-            gl.modelview(view);
-            gl.draw_arrays(thing(Class::Static, cell.object), &cell.floors, Attributes::LIT);
+            let origin = if self.in_pieces { cell.centre } else { DVec3::ZERO };
+            let mesh = cell.floors.transformed(Affine3A::from_translation(-origin.as_vec3()));
+            gl.modelview(view * DMat4::from_translation(origin));
+            gl.draw_arrays(thing(Class::Static, cell.object), &mesh, Attributes::LIT);
         }
         gl.bind(self.paint);
         self.draw_car(gl, view, car, 9.0 * t, 600);

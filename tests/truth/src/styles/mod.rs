@@ -12,9 +12,11 @@ mod mirror;
 mod multitexture;
 mod one_matrix;
 mod own_matrices;
+mod planar_shadows;
 mod scrolling;
 mod sky_box;
 mod sky_dome;
+mod view_in_projection;
 mod weapon;
 
 use std::io;
@@ -117,7 +119,13 @@ pub const STYLES: &[Entry] = &[
         name: "chase",
         has: "a camera that follows a heavy car; wheels; a dome",
         frames: 48,
-        begin: |gl| Box::new(chase::Chase::begin(gl)),
+        begin: |gl| Box::new(chase::Chase::begin(gl, false)),
+    },
+    Entry {
+        name: "chase_in_pieces",
+        has: "the same, and a matrix for each piece of the ground",
+        frames: 48,
+        begin: |gl| Box::new(chase::Chase::begin(gl, true)),
     },
     Entry {
         name: "mirror",
@@ -136,6 +144,18 @@ pub const STYLES: &[Entry] = &[
         has: "lamps by glLight that move",
         frames: 48,
         begin: |gl| Box::new(gl_lights::GlLights::begin(gl)),
+    },
+    Entry {
+        name: "planar_shadows",
+        has: "shadows flattened onto the floor",
+        frames: 48,
+        begin: |gl| Box::new(planar_shadows::PlanarShadows::begin(gl)),
+    },
+    Entry {
+        name: "view_in_projection",
+        has: "the view in the PROJECTION matrix",
+        frames: 48,
+        begin: |gl| Box::new(view_in_projection::ViewInProjection::begin(gl)),
     },
 ];
 

@@ -42,6 +42,7 @@ impl super::Style for SkyDome {
         let ahead = DVec3::new((0.8 * t - 0.7).sin(), 0.05, -(0.8 * t - 0.7).cos());
         let camera =
             TrueCamera { view: look_at(eye, eye + ahead), projection: perspective(65.0, 0.2, 100.0) };
+        gl.clear_color([0.85, 0.88, 0.95]);
         gl.begin_world(0, camera);
         let mut rotation = camera.view;
         rotation.w_axis = glam::DVec4::W;

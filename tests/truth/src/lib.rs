@@ -4,6 +4,9 @@
 //! which writes the calls into a trace and, beside it, the [`Truth`]: the camera, the lights, and what each
 //! triangle is. [`measure`] plays the trace and compares what scene recovery says with that.
 //!
+//! `cargo run --release -p afterglow-truth` prints the figures of all styles; `--write DIR` leaves traces and truths, which
+//! `afterglow replay` shows.
+//!
 //! Nothing here needs OpenGL or a device, and the same style gives the same bytes each time.
 
 mod client;

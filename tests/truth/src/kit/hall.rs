@@ -112,7 +112,7 @@ impl Hall {
             walls.append(&boxed(middle - half, middle + half + up));
         }
         if (x + 2 * z) % 5 == 2 {
-            let color = if z % 2 == 0 { Vec3::new(1.1, 0.9, 0.6) } else { Vec3::new(0.6, 0.8, 1.2) };
+            let color = if z.is_multiple_of(2) { Vec3::new(1.1, 0.9, 0.6) } else { Vec3::new(0.6, 0.8, 1.2) };
             self.lamps.push((middle + Vec3::Y * 3.0, color));
         }
         let plan = Vec2::new(self.counts[0] as f32, self.counts[1] as f32) * SIDE;

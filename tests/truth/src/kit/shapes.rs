@@ -20,8 +20,6 @@ pub fn boxed(least: Vec3, most: Vec3) -> Mesh {
         (least + y + z, [x, -z]),
         (least, [x, z]),
     ] {
-        // Corners as above make the last two faces look out of the box, too.
-        let corner = if along == [-x, y] { least + x } else { corner };
         mesh.parallelogram(corner, along, 1, Vec2::ONE);
     }
     mesh

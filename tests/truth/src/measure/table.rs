@@ -13,13 +13,12 @@ use super::Report;
 pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
     writeln!(
         out,
-        "{:<18} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9}  {}",
-        "style", "class", "triangles", "found", "precision", "recall", "young", "mostly taken for"
+        "{:<18} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9}  mostly taken for",
+        "style", "class", "triangles", "found", "precision", "recall", "young"
     )?;
     for report in reports {
         for score in &report.classes {
-            writeln!(
-                out,
+            let line = format!(
                 "{:<18} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9}  {}",
                 report.style,
                 score.class,
@@ -29,7 +28,8 @@ pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
                 percent(score.recall),
                 percent(score.young.recall()),
                 mostly(&score.taken_for),
-            )?;
+            );
+            writeln!(out, "{}", line.trim_end())?;
         }
     }
     writeln!(out)?;

@@ -1,6 +1,8 @@
 //! A race: the camera follows a car at a fixed distance, so the car, which has most of the triangles, and the sky keep
 //! their matrices while the world moves. Its wheels turn, and another car drives ahead.
 
+use std::f64::consts::FRAC_PI_2;
+
 use afterglow_api::constants::*;
 use afterglow_scene::Class;
 use glam::{Affine3A, DMat4, DVec3, DVec4, Vec3};
@@ -54,7 +56,7 @@ impl Chase {
         gl.modelview(view * car);
         gl.call_list(thing(Class::Movable, first_object), self.body);
         for (place, object) in WHEELS.into_iter().zip(first_object + 1..) {
-            let turn = DMat4::from_rotation_x(-rolled / 0.45) * DMat4::from_rotation_y(1.5708);
+            let turn = DMat4::from_rotation_x(-rolled / 0.45) * DMat4::from_rotation_y(FRAC_PI_2);
             gl.modelview(view * car * DMat4::from_translation(place) * turn);
             gl.call_list(thing(Class::Movable, object), self.wheel);
         }

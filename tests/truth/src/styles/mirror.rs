@@ -1,5 +1,5 @@
 //! A floor that mirrors: its place is marked in the stencil, the room is drawn there upside down, then the floor is
-//! blended over it, and at last the room itself is drawn.
+//! blended over it, and at last the room itself is drawn. What only serves the mirror is of the other view.
 
 use afterglow_api::constants::*;
 use afterglow_api::id;

@@ -13,6 +13,7 @@ mod multitexture;
 mod one_matrix;
 mod own_matrices;
 mod planar_shadows;
+mod resting_camera;
 mod scrolling;
 mod sky_box;
 mod sky_dome;
@@ -156,6 +157,12 @@ pub const STYLES: &[Entry] = &[
         has: "the view in the PROJECTION matrix",
         frames: 48,
         begin: |gl| Box::new(view_in_projection::ViewInProjection::begin(gl)),
+    },
+    Entry {
+        name: "resting_camera",
+        has: "a camera that rests, moves and rests again; a world that is scaled",
+        frames: 60,
+        begin: |gl| Box::new(resting_camera::RestingCamera::begin(gl)),
     },
 ];
 

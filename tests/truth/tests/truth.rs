@@ -112,6 +112,8 @@ fn a_recovery_that_is_wrong_has_not() {
     let report = compare(&truth, &observed).unwrap();
     assert_eq!(class(&report, "interface").recall, Some(0.0));
     assert_eq!(class(&report, "interface").precision, None);
+    let missed = class(&report, "interface").settled.told;
+    assert_eq!(class(&report, "interface").taken_for.get("static"), Some(&missed));
     assert_eq!(class(&report, "static").recall, Some(1.0));
     assert!(class(&report, "static").precision.unwrap() < 1.0);
     let frames = truth.frames.len() as f64;
@@ -136,7 +138,8 @@ fn triangles_that_do_not_match_are_an_error() {
 fn all_styles_are_measured() {
     for recording in recordings() {
         let report = measure(&recording).unwrap();
-        // How well is not asked here; verdicts tell no objects apart.
-        assert!(!report.classes.is_empty() && report.identity.is_none());
+        // How well is not asked here.
+        assert!(!report.classes.is_empty());
+        assert!(report.camera.shown > 0);
     }
 }

@@ -16,4 +16,4 @@ pub use mesh::{Mesh, Primitive, Vertex, triangles_of};
 pub use paths::{in_sight, look_at, perspective, walk};
 pub use picture::Picture;
 pub use random::Random;
-pub use shapes::{boxed, creature, dome, ring, sphere, tree};
+pub use shapes::{boxed, creature, dome, ring, sphere};

@@ -103,13 +103,3 @@ pub fn creature(phase: f32) -> Mesh {
     mesh.append(&sphere(0.22, 6, 10).transformed(bob * Affine3A::from_translation(Vec3::Y * 1.72)));
     mesh
 }
-
-/// Two crossed quads with a tree's picture.
-pub fn tree(height: f32) -> Mesh {
-    let half = 0.4 * height;
-    let mut mesh = Mesh::default();
-    for across in [Vec3::X, Vec3::Z] {
-        mesh.parallelogram(-across * half, [2.0 * across * half, Vec3::Y * height], 1, Vec2::ONE);
-    }
-    mesh
-}

@@ -96,7 +96,13 @@ pub const STYLES: &[Entry] = &[
         name: "sky_dome",
         has: "a dome under the rotation of the view alone, before the world",
         frames: 48,
-        begin: |gl| Box::new(sky_dome::SkyDome::begin(gl)),
+        begin: |gl| Box::new(sky_dome::SkyDome::begin(gl, false)),
+    },
+    Entry {
+        name: "sky_dome_solid",
+        has: "the same, drawn with depth as anything else",
+        frames: 48,
+        begin: |gl| Box::new(sky_dome::SkyDome::begin(gl, true)),
     },
     Entry {
         name: "sky_box",

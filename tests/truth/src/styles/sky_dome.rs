@@ -16,11 +16,12 @@ pub struct SkyDome {
     grass: Texture,
     wall: Texture,
     clouds: Texture,
+    is_solid: bool,
 }
 
 impl SkyDome {
-    /// Loads everything.
-    pub fn begin(gl: &mut Client) -> SkyDome {
+    /// Loads everything. The dome is drawn without depth or, `is_solid`, as anything else, so large that all is in it.
+    pub fn begin(gl: &mut Client, is_solid: bool) -> SkyDome {
         let land = Land::new(2, 1);
         gl.set_extent(land.extent());
         let sky = dome(60.0, [90, 130, 255], [235, 240, 255]);
@@ -31,6 +32,7 @@ impl SkyDome {
             grass: gl.texture(&Picture::grain(9, [0.35, 0.5, 0.3], 0.1)),
             wall: gl.texture(&Picture::bricks([0.7, 0.6, 0.5])),
             clouds: gl.texture(&Picture::clouds()),
+            is_solid,
         }
     }
 }
@@ -47,8 +49,10 @@ impl super::Style for SkyDome {
         let mut rotation = camera.view;
         rotation.w_axis = glam::DVec4::W;
         gl.modelview(rotation);
-        gl.depth_mask(false);
-        gl.disable(GL_DEPTH_TEST);
+        if !self.is_solid {
+            gl.depth_mask(false);
+            gl.disable(GL_DEPTH_TEST);
+        }
         gl.bind(self.clouds);
         gl.call_list(thing(Class::Sky, 500), self.dome);
         gl.enable(GL_DEPTH_TEST);

@@ -48,7 +48,8 @@ pub struct Label {
     /// What they are.
     #[serde(with = "ClassName")]
     pub class: Class,
-    /// The object that they belong to, the same in all frames. A layer belongs to the object that it lies on.
+    /// The object that they belong to, the same in all frames. Layers, reflections and shadows belong to the object that
+    /// they are of.
     pub object: u64,
     /// How many.
     pub triangles: u64,

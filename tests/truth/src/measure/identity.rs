@@ -35,10 +35,12 @@ pub fn score(truth: &Truth, observed: &[Observed]) -> Option<IdentityScore> {
     Some(score)
 }
 
-/// The identity that most triangles of each object have.
+/// The identity that most triangles of each object have. Reflections, shadows and layers of an object have its number,
+/// too, but are not it.
 fn identities(frame: &FrameTruth, observed: &Observed) -> HashMap<u64, u64> {
     let mut votes: HashMap<u64, BTreeMap<u64, u64>> = HashMap::new();
-    for (label, run, count) in observed.beside(frame) {
+    let things = observed.beside(frame).filter(|(label, ..)| label.class.is_traced());
+    for (label, run, count) in things {
         if let Some(identity) = run.object {
             *votes.entry(label.object).or_default().entry(identity).or_default() += count;
         }

@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use afterglow_scene::Class;
+use afterglow_scene::{Class, LightShape};
 use afterglow_truth::measure::{ClassScore, Observed, Report, compare, measure, play};
-use afterglow_truth::styles::STYLES;
+use afterglow_truth::styles::{self, STYLES};
 use afterglow_truth::{Recording, Truth};
 use glam::{DMat3, DMat4, DVec3};
 
@@ -18,6 +18,15 @@ fn ideal(truth: &Truth) -> Vec<Observed> {
 
 fn class<'a>(report: &'a Report, name: &str) -> &'a ClassScore {
     report.classes.iter().find(|score| score.class == name).unwrap()
+}
+
+fn move_light(light: &mut LightShape, by: DMat4) {
+    match light {
+        LightShape::Directional { to_light, .. } => {
+            *to_light = by.transform_vector3(to_light.as_dvec3()).as_vec3();
+        }
+        LightShape::Point { position, .. } => *position = by.transform_point3(position.as_dvec3()).as_vec3(),
+    }
 }
 
 #[test]
@@ -76,8 +85,9 @@ fn a_recovery_that_is_right_has_full_marks() {
     let moved = DMat4::from_rotation_y(0.7) * DMat4::from_translation(DVec3::new(3.0, -8.0, 1.0));
     for Recording { truth, .. } in recordings() {
         let mut observed = ideal(&truth);
-        for camera in observed.iter_mut().filter_map(|frame| frame.camera.as_mut()) {
-            camera.view *= moved.inverse();
+        for frame in &mut observed {
+            frame.lights.iter_mut().for_each(|(_, light)| move_light(light, moved));
+            frame.camera.iter_mut().for_each(|camera| camera.view *= moved.inverse());
         }
         let report = compare(&truth, &observed).unwrap();
         for score in &report.classes {
@@ -89,6 +99,7 @@ fn a_recovery_that_is_right_has_full_marks() {
         assert_eq!((report.camera.found, report.camera.right, report.camera.invented), (1.0, 1.0, 0));
         assert!(report.camera.worst_position < 1e-9 && report.camera.worst_angle < 1e-6);
         assert_eq!(report.camera.worst_projection, 0.0);
+        assert_eq!((report.lights.right, report.lights.found), (report.lights.told, report.lights.told));
         let identity = report.identity.unwrap();
         assert!(identity.chances > 0 && identity.switches == 0);
     }
@@ -122,6 +133,18 @@ fn a_recovery_that_is_wrong_has_not() {
     assert!((report.camera.worst_position - 0.1).abs() < 1e-9);
     let identity = report.identity.unwrap();
     assert_eq!(identity.switches, identity.chances);
+}
+
+#[test]
+fn lights_at_other_places_are_not_found() {
+    let truth = styles::named("gl_lights").unwrap().record().unwrap().truth;
+    let mut observed = ideal(&truth);
+    let aside = DMat4::from_translation(DVec3::X * truth.extent * 0.1);
+    move_light(&mut observed[3].lights[0].1, aside);
+    observed[4].lights.clear();
+    let report = compare(&truth, &observed).unwrap();
+    assert_eq!(report.lights.told - report.lights.right, 4);
+    assert_eq!(report.lights.told - report.lights.found, 3);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod camera;
 mod classes;
 mod identity;
+mod lights;
 mod observe;
 mod play;
 mod table;
@@ -14,6 +15,7 @@ use crate::truth::Truth;
 pub use camera::CameraScore;
 pub use classes::{ClassScore, HYSTERESIS};
 pub use identity::IdentityScore;
+pub use lights::LightScore;
 pub use observe::{Observed, Run};
 pub use play::{Played, play};
 pub use table::write_table;
@@ -29,6 +31,8 @@ pub struct Report {
     pub classes: Vec<ClassScore>,
     /// Of the camera.
     pub camera: CameraScore,
+    /// Of lights.
+    pub lights: LightScore,
     /// Of objects' identities; nothing while recovery does not tell objects apart.
     pub identity: Option<IdentityScore>,
 }
@@ -63,6 +67,7 @@ pub fn compare(truth: &Truth, observed: &[Observed]) -> anyhow::Result<Report> {
         frames: truth.frames.len(),
         classes: classes::score(truth, observed),
         camera: camera::score(truth, observed),
+        lights: lights::score(truth, observed),
         identity: identity::score(truth, observed),
     })
 }

@@ -1,9 +1,9 @@
 //! What recovery said of a frame, triangle by triangle.
 
-use afterglow_scene::{Class, Scene};
+use afterglow_scene::{Class, LightOrigin, LightShape, Scene};
 use glam::DMat4;
 
-use crate::truth::{FrameTruth, Label, TrueCamera};
+use crate::truth::{FrameTruth, Label, TrueCamera, TrueLight, TrueLightOrigin, TrueLightShape};
 
 /// Consecutive triangles of which recovery said the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +21,8 @@ pub struct Run {
 pub struct Observed {
     /// The camera, if it found one.
     pub camera: Option<TrueCamera>,
+    /// Lights that it took from glLight, by number.
+    pub lights: Vec<(u8, LightShape)>,
     /// Of all triangles, in order.
     pub runs: Vec<Run>,
 }
@@ -38,7 +40,11 @@ impl Observed {
             view: camera.view,
             projection: DMat4::from_cols_array(&camera.projection.to_cols_array().map(f64::from)),
         });
-        Observed { camera, runs: runs.filter(|run| run.triangles > 0).collect() }
+        let lights = scene.lights.iter().filter_map(|light| match light.origin {
+            LightOrigin::Gl(index) => Some((index, light.shape)),
+            LightOrigin::Fallback => None,
+        });
+        Observed { camera, lights: lights.collect(), runs: runs.filter(|run| run.triangles > 0).collect() }
     }
 
     /// What a recovery that is always right says.
@@ -48,7 +54,8 @@ impl Observed {
             object: Some(label.object),
             triangles: label.triangles,
         });
-        Observed { camera: truth.camera, runs: runs.collect() }
+        let lights = truth.lights.iter().filter_map(ideal_light);
+        Observed { camera: truth.camera, lights: lights.collect(), runs: runs.collect() }
     }
 
     /// Triangles in all.
@@ -71,4 +78,17 @@ impl Observed {
             Some(pair)
         })
     }
+}
+
+fn ideal_light(light: &TrueLight) -> Option<(u8, LightShape)> {
+    let TrueLightOrigin::Gl(index) = light.origin else { return None };
+    let shape = match light.shape {
+        TrueLightShape::Directional { to_light } => {
+            LightShape::Directional { to_light: to_light.as_vec3(), angular_radius: 0.0 }
+        }
+        TrueLightShape::Point { position, attenuation } => {
+            LightShape::Point { position: position.as_vec3(), radius: 0.0, attenuation, spot: None }
+        }
+    };
+    Some((index, shape))
 }

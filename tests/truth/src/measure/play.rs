@@ -39,6 +39,7 @@ impl Watcher {
         self.part.triangles += triangles.map(|(_, draw)| u64::from(draw.index_count / 3)).sum::<u64>();
         let observed = Observed::of(&scene);
         self.part.observed.camera = observed.camera.or(self.part.observed.camera);
+        self.part.observed.lights.extend(observed.lights);
         self.part.observed.runs.extend(observed.runs);
     }
 }

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use super::Report;
 
 /// Writes a line a style and class: how many settled triangles there are, precision and recall in percent, the recall of
-/// young ones; and a line a style on the camera.
+/// young ones; and a line a style on camera, lights and identities.
 ///
 /// # Errors
 /// Those of `out`.
@@ -35,15 +35,16 @@ pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
     writeln!(out)?;
     writeln!(
         out,
-        "{:<18} {:>7} {:>7} {:>10} {:>9} {:>11} {:>9} {:>9}",
-        "style", "camera", "right", "position", "degrees", "projection", "invented", "switches"
+        "{:<18} {:>7} {:>7} {:>10} {:>9} {:>11} {:>9} {:>9} {:>9}",
+        "style", "camera", "right", "position", "degrees", "projection", "invented", "lights", "switches"
     )?;
     for report in reports {
         let camera = &report.camera;
+        let lights = format!("{}/{}", report.lights.right, report.lights.told);
         let switches = report.identity.map_or("-".into(), |i| format!("{}/{}", i.switches, i.chances));
         writeln!(
             out,
-            "{:<18} {:>7} {:>7} {:>10.2e} {:>9.3} {:>11.2e} {:>9} {:>9}",
+            "{:<18} {:>7} {:>7} {:>10.2e} {:>9.3} {:>11.2e} {:>9} {:>9} {:>9}",
             report.style,
             percent(Some(camera.found)),
             percent(Some(camera.right)),
@@ -51,6 +52,7 @@ pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
             camera.worst_angle,
             camera.worst_projection,
             camera.invented,
+            lights,
             switches,
         )?;
     }

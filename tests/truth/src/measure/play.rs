@@ -1,0 +1,83 @@
+//! Plays a trace, and lets recovery understand its frames.
+
+use std::io::Cursor;
+use std::sync::Arc;
+
+use afterglow_gl::backend::{Backend, End, Reply, Request};
+use afterglow_gl::frame::{Frame, Topology};
+use afterglow_player::{DrawableSizes, Player};
+use afterglow_scene::Recovery;
+use afterglow_trace::TraceReader;
+use anyhow::ensure;
+use parking_lot::Mutex;
+
+use super::Observed;
+use crate::client::WINDOW;
+
+/// A frame as it was played.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Played {
+    /// Triangles that were drawn.
+    pub triangles: u64,
+    /// What recovery said.
+    pub observed: Observed,
+}
+
+/// Understands frames in place of drawing them.
+#[derive(Default)]
+struct Watcher {
+    recovery: Recovery,
+    /// What was handed over of a frame that goes on.
+    part: Played,
+    frames: Arc<Mutex<Vec<Played>>>,
+}
+
+impl Watcher {
+    fn watch(&mut self, frame: &Frame) {
+        let scene = self.recovery.understand(frame);
+        let triangles = frame.draws().filter(|(_, draw)| draw.topology == Topology::Triangles);
+        self.part.triangles += triangles.map(|(_, draw)| u64::from(draw.index_count / 3)).sum::<u64>();
+        let observed = Observed::of(&scene);
+        self.part.observed.camera = observed.camera.or(self.part.observed.camera);
+        self.part.observed.lights.extend(observed.lights);
+        self.part.observed.runs.extend(observed.runs);
+    }
+}
+
+impl Backend for Watcher {
+    fn submit(&mut self, frame: Frame, end: End) {
+        self.watch(&frame);
+        if end != End::Continued {
+            self.frames.lock().push(std::mem::take(&mut self.part));
+        }
+    }
+
+    fn answer(&mut self, so_far: Frame, _: Request) -> Reply {
+        self.watch(&so_far);
+        Reply::Unavailable
+    }
+}
+
+/// Plays a trace to its end.
+///
+/// # Errors
+/// Where a call cannot be played, or is an error of OpenGL.
+pub fn play(trace: &[u8]) -> anyhow::Result<Vec<Played>> {
+    let frames = Arc::new(Mutex::new(Vec::new()));
+    let reader = TraceReader::from_reader(Cursor::new(trace.to_vec()))?;
+    let sizes = DrawableSizes::all(WINDOW.0 as u32, WINDOW.1 as u32);
+    let shared = frames.clone();
+    let factory = Box::new(move |_| {
+        Box::new(Watcher { frames: shared.clone(), ..Watcher::default() }) as Box<dyn Backend>
+    });
+    let mut player = Player::new(reader, sizes, factory);
+    while player.next_frame().is_some() {}
+    let report = player.report();
+    let skipped = [&report.unsupported, &report.malformed, &report.without_context];
+    ensure!(skipped.iter().all(|calls| calls.is_empty()), "calls were not played: {skipped:?}");
+    ensure!(report.errors.is_empty(), "OpenGL errors: {:?}", report.errors);
+    ensure!(report.failure.is_none(), "{:?}", report.failure);
+    drop(player);
+    let played = std::mem::take(&mut *frames.lock());
+    Ok(played)
+}

@@ -16,8 +16,8 @@ impl Context {
         if !assemble::is_mode(mode) {
             return self.record_error(GL_INVALID_ENUM);
         }
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         let edges = self.list.is_some() || self.effective_polygon_mode() != PolygonMode::Fill;
         self.immediate.begin(mode, edges);

@@ -84,8 +84,8 @@ impl Context {
 
     /// glBindBuffer.
     pub fn bind_buffer(&mut self, target: u32, name: u32) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         let Some(slot) = self.client.binding_mut(target) else {
             return self.record_error(GL_INVALID_ENUM);

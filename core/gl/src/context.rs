@@ -104,9 +104,8 @@ impl Context {
 
     /// glGetError.
     pub fn get_error(&mut self) -> u32 {
-        if self.in_begin() {
-            // Not among the commands that are allowed there (2.6.3); the error is for after glEnd.
-            self.record_error(GL_INVALID_OPERATION);
+        // Not among the commands that are allowed there (2.6.3); the error is for after glEnd.
+        if self.refuses_in_begin() {
             return GL_NO_ERROR;
         }
         self.take_error()
@@ -119,16 +118,14 @@ impl Context {
 
     /// glFlush.
     pub fn flush(&mut self) {
-        if self.in_begin() {
-            self.record_error(GL_INVALID_OPERATION);
-        }
+        self.refuses_in_begin();
     }
 
     /// glFinish: waits until everything that was handed over is done. A frame that goes on is not cut: programs that
     /// finish every frame can still be traced.
     pub fn finish(&mut self) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         self.backend.wait();
     }

@@ -84,8 +84,7 @@ const MAX_TEXTURE_COORDS: u32 = 0x8871;
 impl Context {
     /// glGet in the form before conversion; an error and nothing for unknown names.
     pub fn get(&mut self, pname: u32) -> Option<Value> {
-        if self.in_begin() {
-            self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
             return None;
         }
         let value = self

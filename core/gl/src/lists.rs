@@ -222,8 +222,8 @@ impl Context {
 
     /// glEndList.
     pub fn end_list(&mut self) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         let Some(mut builder) = self.list.take() else {
             return self.record_error(GL_INVALID_OPERATION);
@@ -236,8 +236,7 @@ impl Context {
 
     /// glGenLists.
     pub fn gen_lists(&mut self, range: i32) -> u32 {
-        if self.in_begin() {
-            self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
             return 0;
         }
         if !(0..=limits::GENERATED_NAMES).contains(&range) {
@@ -249,8 +248,8 @@ impl Context {
 
     /// glDeleteLists.
     pub fn delete_lists(&mut self, first: u32, range: i32) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         if range < 0 {
             return self.record_error(GL_INVALID_VALUE);
@@ -353,8 +352,8 @@ impl Context {
     }
 
     fn run_primitive(&mut self, primitive: &ListPrimitive) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         let mut words = primitive.words.clone();
         let stride = primitive.layout.stride();

@@ -54,8 +54,8 @@ pub struct BitmapCall {
 impl Context {
     /// glPixelStore.
     pub fn pixel_store(&mut self, pname: u32, value: f32) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         let result = self.stacks.pixel_store.set(pname, value);
         self.check(result);
@@ -256,8 +256,8 @@ impl Context {
         kind: u32,
         data: &mut [u8],
     ) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         let packing = self.stacks.pixel_store.pack;
         let checked = extent((width, height)).and_then(|extent| {
@@ -384,8 +384,7 @@ impl Context {
 
     /// glRenderMode. Selection and feedback draw nothing; their buffers stay empty.
     pub fn render_mode(&mut self, mode: u32) -> i32 {
-        if self.in_begin() {
-            self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
             return 0;
         }
         self.mode = match mode {

@@ -80,8 +80,8 @@ impl Context {
     }
 
     fn image_command(&mut self, target: u32, dimensions: usize, image: Image, data: Option<&[u8]>) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         let target = match ImageTarget::of_dimensions(target, dimensions) {
             Ok(target) => target,
@@ -191,8 +191,8 @@ impl Context {
 
     /// glGetTexImage.
     pub fn get_tex_image(&mut self, target: u32, level: i32, format: u32, kind: u32, data: &mut [u8]) {
-        if self.in_begin() {
-            return self.record_error(GL_INVALID_OPERATION);
+        if self.refuses_in_begin() {
+            return;
         }
         let Some((texture, face)) = self.copy_target(target) else { return };
         let image = texture.lock().level_image(face, level);

@@ -4,12 +4,12 @@ use afterglow_api::constants::*;
 
 use crate::arrays::ClientState;
 use crate::context::Context;
-use crate::emit::Dirty;
 use crate::frame::{SLOTS, TEXTURE_UNITS};
 use crate::limits;
 use crate::pixel::{PixelStore, TransferModes};
 use crate::shared::SharedTexture;
 use crate::state::{Cap, Caps, State};
+use crate::tables::Dirty;
 use crate::texture::Parameters;
 
 /// Name, texture and its parameters, by unit and target.
@@ -180,7 +180,7 @@ impl Context {
             }
         }
         self.dirty(Dirty::all());
-        self.emitter.changed = [true; SLOTS];
+        self.tables.changed = [true; SLOTS];
     }
 
     fn restore(&mut self, mask: u32, from: State) {

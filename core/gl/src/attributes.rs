@@ -101,7 +101,7 @@ impl Context {
     #[inline(always)]
     pub(crate) fn set_current(&mut self, slot: usize, [x, y, z, w]: [f32; 4]) {
         self.state.current.attributes[slot] = Vec4::new(x, y, z, w);
-        self.emitter.changed[slot] = true;
+        self.tables.changed[slot] = true;
     }
 
     /// glColor.

@@ -7,9 +7,8 @@ use afterglow_api::constants::*;
 use crate::arrays::ClientState;
 use crate::attrib_stack::AttribStacks;
 use crate::backend::{Backend, End, Reply, Request};
-use crate::draw_arrays::RangeCache;
 use crate::drawable::Output;
-use crate::emit::{Dirty, Emitter};
+use crate::emit::Emitter;
 use crate::frame::Frame;
 use crate::immediate::Immediate;
 use crate::lists::ListBuilder;
@@ -17,8 +16,10 @@ use crate::matrices::Matrices;
 use crate::pixel::PixelTransfer;
 use crate::pixels::RenderMode;
 use crate::query::ActiveQuery;
+use crate::range_cache::RangeCache;
 use crate::shared::SharedNames;
 use crate::state::State;
+use crate::tables::{Dirty, Tables};
 use crate::texturing::Textures;
 
 /// Parameters of a command that has scalar and vector, float and integer forms.
@@ -39,6 +40,7 @@ pub struct Context {
     pub(crate) frame: Frame,
     /// The device that images are on.
     pub(crate) device: u64,
+    pub(crate) tables: Tables,
     pub(crate) emitter: Emitter,
     pub(crate) state: State,
     pub(crate) matrices: Matrices,
@@ -77,6 +79,7 @@ impl Context {
             output: Output::default(),
             frame: Frame { device, ..Frame::default() },
             device,
+            tables: Tables::default(),
             emitter: Emitter::default(),
             state: State::default(),
             matrices: Matrices::default(),
@@ -148,7 +151,7 @@ impl Context {
 
     #[inline]
     pub(crate) fn dirty(&mut self, what: Dirty) {
-        self.emitter.dirty |= what;
+        self.tables.dirty |= what;
     }
 
     /// Whether a command that is not allowed between Begin and End comes there; an error if so.
@@ -200,6 +203,7 @@ impl Context {
         let mut next = self.backend.recycle();
         next.clear();
         next.size = self.drawable();
+        self.tables.start_frame();
         self.emitter.start_frame();
         std::mem::replace(&mut self.frame, next)
     }

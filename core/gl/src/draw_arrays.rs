@@ -1,11 +1,10 @@
 //! Drawing from arrays. Arrays in buffer objects that did not change since they were drawn before
 //! become retained ranges; all others are copied into the frame.
 
-use std::hash::{BuildHasher, Hash, Hasher};
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use afterglow_api::constants::*;
-use hashbrown::{DefaultHashBuilder, HashMap, HashSet};
 
 use crate::arrays::{EDGE_FLAG, Pointer, Source};
 use crate::assemble::{self, PolygonMode};
@@ -15,60 +14,8 @@ use crate::frame::{RetainedRange, SLOTS, Slot, VertexLayout};
 use crate::gather::{Elements, Shape, component_bytes, stored_format};
 use crate::limits;
 
-/// Retained ranges that are kept for arrays in buffer objects, at most.
-const RANGES_KEPT: usize = 16384;
-/// Frames after which a range that was not drawn is forgotten.
-const FRAMES_KEPT: u64 = 256;
-
 /// Vertices from which it is worth while to copy them once.
 const MANY: usize = 64;
-
-/// Ranges made of buffer objects' content, by what they were made of. What is drawn in a second frame without a change
-/// is worth a range; what a program writes anew for each frame is not.
-#[derive(Debug, Default)]
-pub struct RangeCache {
-    kept: HashMap<u64, Kept>,
-    /// What was drawn in this frame, and in the one before.
-    drawn: HashSet<u64>,
-    drawn_before: HashSet<u64>,
-    /// Frames so far.
-    frame: u64,
-    hasher: DefaultHashBuilder,
-}
-
-#[derive(Debug)]
-struct Kept {
-    range: Arc<RetainedRange>,
-    /// The frame that it was drawn in last.
-    frame: u64,
-}
-
-impl RangeCache {
-    /// The next frame begins.
-    pub fn next_frame(&mut self) {
-        self.frame += 1;
-        std::mem::swap(&mut self.drawn, &mut self.drawn_before);
-        self.drawn.clear();
-        if self.frame.is_multiple_of(FRAMES_KEPT) {
-            self.kept.retain(|_, kept| self.frame - kept.frame < FRAMES_KEPT);
-        }
-    }
-
-    /// Takes note of a draw; whether it was drawn in the frame before, too.
-    fn is_drawn_again(&mut self, key: u64) -> bool {
-        if self.drawn.len() < RANGES_KEPT {
-            self.drawn.insert(key);
-        }
-        self.drawn_before.contains(&key)
-    }
-
-    fn keep(&mut self, key: u64, range: Arc<RetainedRange>) {
-        if self.kept.len() >= RANGES_KEPT {
-            self.kept.clear();
-        }
-        self.kept.insert(key, Kept { range, frame: self.frame });
-    }
-}
 
 /// Which vertices a draw takes, in order.
 enum Selection<'a> {
@@ -204,17 +151,9 @@ impl Context {
 
     /// Draws what was kept under the key, if there is such a range.
     fn draw_known(&mut self, mode: u32, key: Option<u64>) -> bool {
-        let Some(key) = key else { return false };
-        let none = HashMap::with_hasher(self.ranges.hasher.clone());
-        let mut kept = std::mem::replace(&mut self.ranges.kept, none);
-        let known = kept.get_mut(&key);
-        let is_known = known.is_some();
-        if let Some(known) = known {
-            known.frame = self.ranges.frame;
-            self.emit_retained(&known.range, Kind::of(mode, PolygonMode::Fill));
-        }
-        self.ranges.kept = kept;
-        is_known
+        let Some(range) = key.and_then(|key| self.ranges.get(key).cloned()) else { return false };
+        self.emit_retained(range, Kind::of(mode, PolygonMode::Fill));
+        true
     }
 
     /// Draws from arrays; `key` names what is read, if it may be kept.
@@ -242,7 +181,7 @@ impl Context {
             if let Some(key) = key.filter(|key| self.ranges.is_drawn_again(*key)) {
                 let range = Arc::new(RetainedRange::new(layout, words.clone(), indices.clone()));
                 self.ranges.keep(key, range.clone());
-                self.emit_retained(&range, kind);
+                self.emit_retained(range, kind);
             } else if self.list.as_ref().is_none_or(|list| list.executes) {
                 self.emit_indexed(layout, kind, &words, &indices);
             }
@@ -395,7 +334,7 @@ impl Context {
         if self.list.is_some() || polygons && self.effective_polygon_mode() != PolygonMode::Fill {
             return None;
         }
-        let mut hasher = self.ranges.hasher.build_hasher();
+        let mut hasher = self.ranges.hasher();
         (mode, selection).hash(&mut hasher);
         for (slot, array) in self.client.arrays[..SLOTS].iter().enumerate().filter(|(_, a)| a.is_read()) {
             let Source::Buffer(_, buffer, offset) = &array.source else { return None };

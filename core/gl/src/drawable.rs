@@ -8,8 +8,8 @@ use afterglow_api::constants::*;
 
 use crate::backend::End;
 use crate::context::Context;
-use crate::emit::Dirty;
 use crate::frame::{Frame, Operation, Rect};
+use crate::tables::Dirty;
 
 /// The buffers of a drawable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

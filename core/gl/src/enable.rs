@@ -3,9 +3,9 @@
 use afterglow_api::constants::*;
 
 use crate::context::Context;
-use crate::emit::Dirty;
 use crate::frame::{CLIP_PLANES, LIGHTS};
 use crate::state::{Cap, TARGETS};
+use crate::tables::Dirty;
 
 /// A capability, wherever its flag is kept.
 enum Place {

@@ -4,12 +4,12 @@ use afterglow_api::constants::*;
 use glam::{DMat4, DVec4};
 
 use crate::context::Context;
-use crate::emit::Dirty;
 use crate::frame::{self, CLIP_PLANES, Operation, Rect};
 use crate::limits;
 use crate::pixel::{Extent, PixelLayout, PixelSource, unpack_mask};
 use crate::pixels::RenderMode;
 use crate::state::{Cap, HINTS};
+use crate::tables::Dirty;
 
 fn unit(value: f32) -> f32 {
     value.clamp(0.0, 1.0)

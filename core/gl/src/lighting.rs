@@ -4,10 +4,10 @@ use afterglow_api::constants::*;
 use glam::{Mat3, Vec3, Vec4};
 
 use crate::context::Context;
-use crate::emit::Dirty;
 use crate::frame::{LIGHTS, MaterialFace, Slot};
 use crate::params::Values;
 use crate::state::Cap;
+use crate::tables::Dirty;
 
 /// Indices of the faces that an enumerant names.
 pub fn face_indices(face: u32) -> Option<&'static [usize]> {

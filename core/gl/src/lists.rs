@@ -347,7 +347,7 @@ impl Context {
                 assemble::assemble_unfilled(GL_TRIANGLES, count, mode, corner, |_| true, &mut indices);
                 self.emit_indexed(range.layout, Kind::Polygons(mode), &range.words, &indices);
             }
-            _ => self.emit_retained(range, kind),
+            _ => self.emit_retained(range.clone(), kind),
         }
     }
 

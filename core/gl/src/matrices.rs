@@ -4,9 +4,9 @@ use afterglow_api::constants::*;
 use glam::{DVec3, Mat4, Vec3};
 
 use crate::context::Context;
-use crate::emit::Dirty;
 use crate::frame::TEXTURE_UNITS;
 use crate::limits;
+use crate::tables::Dirty;
 
 /// A stack of matrices.
 #[derive(Debug, Clone)]
@@ -80,7 +80,7 @@ impl Context {
             GL_COLOR => (&mut self.matrices.color, Dirty::empty()),
             _ => (&mut self.matrices.modelview, Dirty::TRANSFORM),
         };
-        self.emitter.dirty |= dirty;
+        self.tables.dirty |= dirty;
         stack
     }
 

@@ -198,7 +198,7 @@ impl Context {
         }
         let ids = self.validate_pixels();
         self.state.current.attributes = attributes;
-        self.emitter.changed = [true; SLOTS];
+        self.tables.changed = [true; SLOTS];
         ids
     }
 

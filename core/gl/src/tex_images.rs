@@ -6,11 +6,11 @@ use std::sync::Arc;
 use afterglow_api::constants::*;
 
 use crate::context::Context;
-use crate::emit::Dirty;
 use crate::frame::Operation;
 use crate::pixel::{GlResult, Packing, PixelTransfer};
 use crate::shared::SharedTexture;
 use crate::state::TARGETS;
+use crate::tables::Dirty;
 use crate::texture::{CopySource, ImageDefinition, ImageTarget, PixelInput, SubImage, TextureObject};
 
 /// What a texture image command with texels from the program does.

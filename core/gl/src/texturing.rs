@@ -7,12 +7,12 @@ use glam::{Mat4, Vec4};
 use parking_lot::Mutex;
 
 use crate::context::Context;
-use crate::emit::Dirty;
 use crate::frame::{CombineFunction, CombineSource, EnvMode, TEXTURE_UNITS, UnitWords};
 use crate::limits;
 use crate::params::Values;
 use crate::shared::{SharedNames, SharedTexture};
 use crate::state::{TARGETS, TextureUnit};
+use crate::tables::Dirty;
 use crate::texture::TextureObject;
 
 /// What is bound to the units.

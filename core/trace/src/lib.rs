@@ -2,7 +2,7 @@
 //!
 //! A trace is a compressed stream ([`Container`]) of events: a call is entered with its arguments and left with its
 //! results. [`TraceReader`] pairs the events and hands out whole [`Call`]s in the order in which they were entered.
-//! [`dump`] prints a call as a line of text; [`write`] writes traces.
+//! [`dump`] prints a call as a line of text; [`mod@write`] writes traces.
 //!
 //! The format is that of apitrace's `docs/FORMAT.markdown`, versions 0 to [`format::NEWEST_VERSION`]. A trace is
 //! untrusted input: every count and length is bounded ([`format::limits`]), and whatever precedes a fault is delivered

@@ -35,14 +35,14 @@ struct Understanding {
 }
 
 impl Backend for Understanding {
-    fn submit(&mut self, frame: Frame, end: End) {
+    fn submit(&mut self, mut frame: Frame, end: End) {
         let mut report = self.report.lock().unwrap_or_else(PoisonError::into_inner);
         if end == End::Continued {
             report.continued += 1;
             return self.recovery.observe(&frame);
         }
         let start = Instant::now();
-        let scene = self.recovery.understand(&frame);
+        let scene = self.recovery.understand(&mut frame);
         report.times.push(start.elapsed());
         report.add(&frame, scene);
     }
@@ -124,12 +124,13 @@ fn print_draws(frame: &Frame, scene: &Scene) {
         println!("view {:.4}\nprojection {:.4}", camera.view, camera.projection);
     }
     for ((_, draw), verdict) in frame.draws().zip(&scene.verdicts) {
-        let Verdict { operation, class, reason, model, baked, triangles, base } = verdict;
+        let Verdict { operation, class, reason, object, model, previous: _, baked, triangles, base } =
+            verdict;
         let fixed = &frame.fixed[draw.fixed as usize];
         let raster = fixed.raster;
         let units = fixed.words.units.iter().filter(|unit| unit.target() != 0).count();
         println!(
-            "{operation:5} {class:?} ({reason}) {triangles} triangles, units {units}, lit {}, baked {baked}, base {base:?}, \
+            "{operation:5} {class:?} {object:016x} ({reason}) {triangles} triangles, units {units}, lit {}, baked {baked}, base {base:?}, \
              depth {:?}, blend {:?}, alpha {}, viewport {:?}, model at {:.3}",
             fixed.words.global.lighting(),
             raster.depth.map(|d| (d.compare, d.write)),

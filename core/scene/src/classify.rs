@@ -75,6 +75,8 @@ impl<'a> Classifier<'a> {
             class,
             reason,
             model: if class.is_traced() { self.model(facts).as_mat4() } else { Mat4::IDENTITY },
+            object: 0,
+            previous: None,
             baked: class.is_traced() && self.is_baked(facts),
             triangles: facts.triangles,
             base: self.base,

@@ -40,7 +40,7 @@ impl Recovery {
     }
 
     /// The scene that a frame draws. Sees to the frame's images as well.
-    pub fn understand(&mut self, frame: &Frame) -> Scene {
+    pub fn understand(&mut self, frame: &mut Frame) -> Scene {
         self.images.learn(frame);
         let scene = self.scene(frame);
         self.images.forget(frame);
@@ -89,6 +89,7 @@ impl Recovery {
                 projection: world.perspective.projection.as_mat4(),
             }),
             verdicts,
+            deformed: Vec::new(),
             lights,
             sky,
             ambient,
@@ -132,6 +133,8 @@ fn flat_scene(draws: &[DrawFacts]) -> Scene {
         class: Class::Interface,
         reason: "no world in this frame",
         model: glam::Mat4::IDENTITY,
+        object: 0,
+        previous: None,
         baked: false,
         triangles: facts.triangles,
         base: None,

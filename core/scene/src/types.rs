@@ -57,12 +57,25 @@ pub struct Verdict {
     /// Object to world space; identity unless the draw belongs to the world. Static draws of a world that the
     /// program scales keep the scale here, since the camera is rigid.
     pub model: Mat4,
+    /// The object that it is of, the same in all frames and in all runs of a program; 0 where that means nothing.
+    pub object: u64,
+    /// Its model matrix in the frame before, if the object was there.
+    pub previous: Option<Mat4>,
     /// Its colours are baked light: unlit, with a lightmap or vertex colours.
     pub baked: bool,
     /// Number of triangles; 0 for points and lines.
     pub triangles: u32,
     /// Of a layer: the operation that drew the surface below, where it has exactly these triangles.
     pub base: Option<u32>,
+}
+
+/// Where the corners of a dynamic draw were in the frame before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deformed {
+    /// Index of the operation.
+    pub operation: u32,
+    /// Object-space positions, one an index of the draw.
+    pub positions: Vec<Vec3>,
 }
 
 /// Where a light came from.
@@ -179,6 +192,8 @@ pub struct Scene {
     pub camera: Option<Camera>,
     /// A verdict on each draw, in the frame's order.
     pub verdicts: Vec<Verdict>,
+    /// Former positions of the dynamic draws that were there in the frame before, in the frame's order.
+    pub deformed: Vec<Deformed>,
     /// The lights. Empty when the program's baked light is the light.
     pub lights: Vec<SceneLight>,
     /// Linear RGB from every direction that sees no surface.

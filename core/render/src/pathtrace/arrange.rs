@@ -273,6 +273,8 @@ mod tests {
                 class: *class,
                 reason: "test",
                 model: Mat4::IDENTITY,
+                object: 0,
+                previous: None,
                 baked: false,
                 triangles: 2,
                 base: None,

@@ -10,8 +10,8 @@ use crate::types::{Class, Scene};
 const OVER: Option<(BlendFactor, BlendFactor)> =
     Some((BlendFactor::SourceAlpha, BlendFactor::OneMinusSourceAlpha));
 
-fn understand(sketch: &Sketch) -> Scene {
-    Recovery::new().understand(&sketch.frame)
+fn understand(sketch: &mut Sketch) -> Scene {
+    Recovery::new().understand(&mut sketch.frame)
 }
 
 fn eye_at(height: f32) -> Mat4 {
@@ -30,7 +30,7 @@ fn order_and_depth_tell_sky_and_interface() {
     let flash = sketch.draw(&thing(0.1));
     sketch.projection = glam::camera::rh::proj::opengl::orthographic(0.0, 1.0, 0.0, 1.0, -1.0, 1.0);
     let score = sketch.draw(&thing(0.1));
-    let scene = understand(&sketch);
+    let scene = understand(&mut sketch);
     assert_eq!(class(&scene, sky), Class::Sky);
     assert_eq!((class(&scene, flash), class(&scene, score)), (Class::Interface, Class::Interface));
 }
@@ -43,7 +43,7 @@ fn a_dome_that_moves_with_the_eye_is_sky_even_when_drawn_late() {
     sketch.modelview = Mat4::IDENTITY;
     sketch.depth(Some((Compare::LessEqual, false)));
     let dome = sketch.draw(&thing(500.0));
-    assert_eq!(class(&understand(&sketch), dome), Class::Sky);
+    assert_eq!(class(&understand(&mut sketch), dome), Class::Sky);
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn a_far_depth_range_is_sky() {
     sketch.world();
     sketch.viewport.depth_range = [1.0, 1.0];
     let sky = sketch.draw(&thing(30.0));
-    assert_eq!(class(&understand(&sketch), sky), Class::Sky);
+    assert_eq!(class(&understand(&mut sketch), sky), Class::Sky);
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn weapons_have_a_near_depth_range_or_a_depth_layer_of_their_own() {
     sketch.viewport.depth_range = [0.0, 1.0];
     sketch.clear(None);
     let arm = sketch.draw(&thing(0.5));
-    let scene = understand(&sketch);
+    let scene = understand(&mut sketch);
     assert_eq!((class(&scene, gun), class(&scene, arm)), (Class::ViewModel, Class::ViewModel));
 }
 
@@ -85,7 +85,7 @@ fn blending_that_shows_nothing_of_what_is_behind_is_opaque() {
     sketch.texture(0, BaseFormat::Rgb, &[[90, 80, 70, 255]; 4]);
     sketch.color[3] = 0.5;
     let ghost = sketch.draw(&thing(3.0));
-    let scene = understand(&sketch);
+    let scene = understand(&mut sketch);
     assert_eq!((class(&scene, opaque), class(&scene, glass)), (Class::Static, Class::Translucent));
     assert_eq!((class(&scene, leaves), class(&scene, ghost)), (Class::Static, Class::Translucent));
 }
@@ -102,7 +102,7 @@ fn an_alpha_test_for_more_than_half_cuts_out() {
     let fence = sketch.draw(&thing(1.0));
     sketch.alpha_reference = 0.01;
     let smoke = sketch.draw(&thing(2.0));
-    let scene = understand(&sketch);
+    let scene = understand(&mut sketch);
     assert_eq!((class(&scene, fence), class(&scene, smoke)), (Class::Static, Class::Translucent));
 }
 
@@ -116,8 +116,8 @@ fn texels_are_remembered_from_frames_that_were_only_observed() {
     sketch.frame.operations.clear();
     sketch.modelview = eye_at(2.0);
     let world = sketch.world();
-    assert_eq!(class(&recovery.understand(&sketch.frame), world), Class::Static);
-    assert!(Recovery::new().understand(&sketch.frame).camera.is_none());
+    assert_eq!(class(&recovery.understand(&mut sketch.frame), world), Class::Static);
+    assert!(Recovery::new().understand(&mut sketch.frame).camera.is_none());
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn vertex_alpha_counts() {
     let solid = sketch.draw_with(&corners, Some(&colors));
     colors[4][3] = 0.0;
     let fading = sketch.draw_with(&corners, Some(&colors));
-    let scene = understand(&sketch);
+    let scene = understand(&mut sketch);
     assert_eq!((class(&scene, solid), class(&scene, fading)), (Class::Static, Class::Translucent));
 }
 
@@ -161,7 +161,7 @@ fn shadow_volumes_and_planar_shadows_are_dropped() {
     let shadow = sketch.draw(&thing(1.0));
     sketch.color = [1.0, 0.8, 0.2, 0.4];
     let flare = sketch.draw(&thing(1.0));
-    let scene = understand(&sketch);
+    let scene = understand(&mut sketch);
     assert_eq!((class(&scene, volume), class(&scene, shadow)), (Class::Dropped, Class::Dropped));
     assert_eq!(class(&scene, flare), Class::Translucent);
 }
@@ -175,7 +175,7 @@ fn a_reflection_under_the_stencil_is_another_view() {
     let mirrored_model = sketch.draw(&thing(1.0));
     sketch.fixed.words.global.set_clip_planes(1);
     let reflection = sketch.draw(&floor());
-    let scene = understand(&sketch);
+    let scene = understand(&mut sketch);
     assert_eq!(class(&scene, mirrored_model), Class::Movable);
     assert_eq!(
         (class(&scene, reflection), verdict(&scene, reflection).reason),

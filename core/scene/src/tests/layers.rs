@@ -27,7 +27,7 @@ fn a_lightmap_pass_is_a_layer_of_its_surface() {
     sketch.blend(ADD);
     let glow = sketch.world();
     let flare = sketch.draw(&thing(1.0));
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     assert_eq!((class(&scene, lightmap), class(&scene, glow)), (Class::Layer, Class::Layer));
     assert_eq!(verdict(&scene, lightmap).base, Some(base as u32));
     assert_eq!(class(&scene, flare), Class::Translucent);
@@ -43,7 +43,7 @@ fn a_layer_is_found_in_other_batches_but_not_under_another_matrix() {
     let lightmap = sketch.draw(&half);
     sketch.modelview *= Mat4::from_translation(Vec3::Y);
     let elsewhere = sketch.draw(&half);
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     assert_eq!((class(&scene, lightmap), class(&scene, elsewhere)), (Class::Layer, Class::Translucent));
 }
 
@@ -53,7 +53,7 @@ fn stains_are_translucent() {
     sketch.blend(MULTIPLY);
     sketch.fixed.raster.depth_bias = Some(((-1.0).into(), (-2.0).into()));
     let stain = sketch.draw(&thing(1.0));
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     assert_eq!(class(&scene, stain), Class::Translucent);
     assert!(!verdict(&scene, base).baked && !scene.baked);
 }
@@ -70,7 +70,7 @@ fn a_second_texture_or_varying_colours_are_baked_light_unless_lit() {
     let lightmapped = sketch.world();
     sketch.light([0.0, 1.0, 0.0, 0.0], [1.0; 4]);
     let lit = sketch.draw_with(&floor(), Some(&colors));
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     let baked = [plain, colored, lightmapped, lit].map(|operation| verdict(&scene, operation).baked);
     assert_eq!(baked, [false, true, true, false]);
     assert!(!scene.baked, "a quarter of the world is lit by a light of its own");

@@ -21,7 +21,7 @@ fn gl_lights_are_moved_to_the_world_and_counted_once() {
     sketch.world();
     sketch.modelview *= Mat4::from_translation(Vec3::X);
     sketch.draw(&thing(1.0));
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     assert_eq!(scene.lights.len(), 1);
     assert_eq!(scene.lights[0].origin, LightOrigin::Gl(0));
     assert!(scene.lights[0].color.abs_diff_eq(Vec3::new(1.0, 0.214, 0.0), 1e-3));
@@ -38,7 +38,7 @@ fn a_directional_light_points_from_the_world() {
     sketch.light(view().transform_vector3(to_light * 5.0).extend(0.0).to_array(), [1.0; 4]);
     sketch.lights.scene_ambient = [0.2, 0.2, 0.2, 1.0];
     sketch.world();
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     let LightShape::Directional { to_light: found, .. } = scene.lights[0].shape else { panic!() };
     assert!(found.abs_diff_eq(to_light, 1e-5));
     assert!(scene.ambient.abs_diff_eq(Vec3::splat(0.0331), 1e-3));
@@ -49,7 +49,7 @@ fn without_lights_a_soft_sun_shines_from_above() {
     let mut sketch = Sketch::new();
     sketch.modelview = view();
     sketch.world();
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     assert_eq!(scene.lights[0].origin, LightOrigin::Fallback);
     let LightShape::Directional { to_light, .. } = scene.lights[0].shape else { panic!() };
     assert!(to_light.y > 0.7, "{to_light}");
@@ -62,11 +62,11 @@ fn up_is_kept_when_the_camera_looks_down() {
     sketch.modelview = view();
     sketch.world();
     let mut recovery = Recovery::new();
-    let before = recovery.understand(&sketch.frame).lights[0];
+    let before = recovery.understand(&mut sketch.frame).lights[0];
     let mut sketch = Sketch::new();
     sketch.modelview = glam::camera::rh::view::look_at_mat4(Vec3::new(0.0, 30.0, 10.0), Vec3::ZERO, Vec3::Y);
     sketch.world();
-    assert_eq!(recovery.understand(&sketch.frame).lights[0].shape, before.shape);
+    assert_eq!(recovery.understand(&mut sketch.frame).lights[0].shape, before.shape);
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn the_sky_is_what_was_cleared_to_or_drawn() {
     sketch.modelview = view();
     sketch.light([0.0, 0.0, 1.0, 0.0], [1.0; 4]);
     sketch.world();
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     assert_eq!(scene.sky, Vec3::X);
 
     let mut sketch = Sketch::new();
@@ -91,6 +91,6 @@ fn the_sky_is_what_was_cleared_to_or_drawn() {
     sketch.modelview = view();
     sketch.light([0.0, 0.0, 1.0, 0.0], [1.0; 4]);
     sketch.world();
-    let scene = Recovery::new().understand(&sketch.frame);
+    let scene = Recovery::new().understand(&mut sketch.frame);
     assert!(scene.sky.abs_diff_eq(Vec3::Z, 1e-3), "{}", scene.sky);
 }

@@ -37,7 +37,7 @@ proptest! {
             sketch.light([modelview.x_axis.x, 1.0, 0.0, w], [1.0; 4]);
             sketch.draw(&corners);
         }
-        let scene = Recovery::new().understand(&sketch.frame);
+        let scene = Recovery::new().understand(&mut sketch.frame);
         prop_assert_eq!(scene.verdicts.len(), sketch.frame.operations.len());
         prop_assert!(scene.sky.is_finite());
         if let Some(camera) = scene.camera {

@@ -32,8 +32,7 @@ impl Observed {
     pub fn of(scene: &Scene) -> Observed {
         let runs = scene.verdicts.iter().map(|verdict| Run {
             class: verdict.class,
-            // Verdicts have no identity yet: what they will have belongs here.
-            object: None,
+            object: (verdict.object != 0).then_some(verdict.object),
             triangles: verdict.triangles.into(),
         });
         let camera = scene.camera.map(|camera| TrueCamera {

@@ -33,8 +33,8 @@ struct Watcher {
 }
 
 impl Watcher {
-    fn watch(&mut self, frame: &Frame) {
-        let scene = self.recovery.understand(frame);
+    fn watch(&mut self, mut frame: Frame) {
+        let scene = self.recovery.understand(&mut frame);
         let triangles = frame.draws().filter(|(_, draw)| draw.topology == Topology::Triangles);
         self.part.triangles += triangles.map(|(_, draw)| u64::from(draw.index_count / 3)).sum::<u64>();
         let observed = Observed::of(&scene);
@@ -46,14 +46,14 @@ impl Watcher {
 
 impl Backend for Watcher {
     fn submit(&mut self, frame: Frame, end: End) {
-        self.watch(&frame);
+        self.watch(frame);
         if end != End::Continued {
             self.frames.lock().push(std::mem::take(&mut self.part));
         }
     }
 
     fn answer(&mut self, so_far: Frame, _: Request) -> Reply {
-        self.watch(&so_far);
+        self.watch(so_far);
         Reply::Unavailable
     }
 }

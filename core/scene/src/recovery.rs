@@ -60,7 +60,7 @@ impl Recovery {
             return flat_scene(&draws);
         };
         let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
-        let verdicts = classify(frame, &transforms, &views, &world, &draws, &tracks);
+        let verdicts = classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks);
         let background = views.views[world.place].background;
         let deformed = deformed(&draws, &verdicts, tracks);
         Scene { deformed, ..self.light(frame, &world, &draws, &transforms, verdicts, background) }
@@ -91,10 +91,7 @@ impl Recovery {
             sky = sky.max(FALLBACK_SKY * 0.5);
         }
         Scene {
-            camera: Some(Camera {
-                view: world.view,
-                projection: world.perspective.projection.as_mat4(),
-            }),
+            camera: Some(Camera { view: world.view, projection: world.perspective.projection.as_mat4() }),
             verdicts,
             deformed: Vec::new(),
             lights,

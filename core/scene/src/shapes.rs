@@ -11,16 +11,21 @@ use glam::Vec3;
 use hashbrown::HashMap;
 
 use crate::content::{Content, Contents, Found};
-use crate::formers::{Formers, SPRITE};
+use crate::formers::{Former, Formers, SPRITE};
 use crate::images::Images;
 use crate::objects::Objects;
 
 /// Pieces that a draw is cut into, at most.
 const MOST_PIECES: usize = 64;
+/// Parts of a draw, at most, that are things of their own.
+const MOST_THINGS: usize = 16;
 /// Triangles that are known, at most.
 const MOST_TRIANGLES: usize = 1 << 21;
 /// Frames after which a triangle that was drawn in one frame only is forgotten.
-const FORGOTTEN: u32 = 8;
+const FORGOTTEN: u32 = 300;
+
+/// Frames for which the plan of a draw that is not drawn is kept.
+const PLANNED: u32 = 16;
 
 /// What a piece belongs to.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +47,16 @@ pub struct Piece {
     pub texture: u64,
     /// What it belongs to.
     pub known: Known,
+}
+
+impl Piece {
+    /// Names what the piece shows, wherever it is drawn.
+    pub fn subject(&self) -> u64 {
+        match &self.known {
+            Known::Object(object) | Known::Animated(object, _) => u64::from(*object),
+            Known::Mesh => self.content.positions,
+        }
+    }
 }
 
 /// A triangle's object, and the frames in which it was seen first and last.
@@ -83,6 +98,18 @@ struct Surveyed {
     marks: Vec<Option<u32>>,
 }
 
+/// Triangles of a draw some of which nobody has seen before.
+struct Fresh {
+    first: u32,
+    count: u32,
+    content: Option<Arc<Content>>,
+    /// What they were in the frame before.
+    former: Option<Former>,
+}
+
+/// How a draw is cut at first: parts, of which some are fresh.
+type Parts = Vec<(u32, u32, Option<Fresh>)>;
+
 impl Shapes {
     /// Cuts the draws of a frame that `is_wanted`. Returns a piece for each draw that the frame has then, in order.
     pub fn cut(
@@ -94,14 +121,15 @@ impl Shapes {
     ) -> Vec<Option<Piece>> {
         self.next_frame();
         let surveyed = self.survey(frame, images, is_wanted);
+        let parts = self.parts(frame, &surveyed);
         let mut pieces: Vec<Option<Piece>> = Vec::with_capacity(surveyed.len());
         let mut cuts: Vec<(usize, Vec<(u32, u32)>)> = Vec::new();
         let mut draws = 0;
-        for surveyed in surveyed {
+        for (surveyed, parts) in surveyed.into_iter().zip(parts) {
             pieces.resize_with(pieces.len() + surveyed.number - draws, || None);
             draws = surveyed.number + 1;
             let Some(Operation::Draw(draw)) = frame.operations.get(surveyed.operation) else { continue };
-            let stretches = self.stretches(frame, draw, &surveyed, objects);
+            let stretches = self.stretches(frame, draw, &surveyed, parts, objects);
             if let [whole] = stretches.as_slice() {
                 pieces.push(Some(Piece {
                     content: surveyed.found.content,
@@ -136,13 +164,16 @@ impl Shapes {
         self.contents.next_frame();
         self.formers.next_frame(self.frame);
         let now = self.frame;
-        if now.is_multiple_of(4 * FORGOTTEN) {
-            self.plans.retain(|_, (_, used)| now.wrapping_sub(*used) < FORGOTTEN);
+        if now.is_multiple_of(PLANNED) {
+            self.plans.retain(|_, (_, used)| now.wrapping_sub(*used) < PLANNED);
+        }
+        if now.is_multiple_of(FORGOTTEN) {
             self.triangles
                 .retain(|_, seen| seen.first != seen.last || now.wrapping_sub(seen.last) < FORGOTTEN);
         }
         if self.triangles.len() > MOST_TRIANGLES {
-            let mut ages: Vec<u32> = self.triangles.values().map(|seen| now.wrapping_sub(seen.last)).collect();
+            let mut ages: Vec<u32> =
+                self.triangles.values().map(|seen| now.wrapping_sub(seen.last)).collect();
             let middle = ages.len() / 2;
             let (_, &mut median, _) = ages.select_nth_unstable(middle);
             self.triangles.retain(|_, seen| now.wrapping_sub(seen.last) < median.max(1));
@@ -166,7 +197,13 @@ impl Shapes {
             let is_planned = self.plans.contains_key(&found.bytes);
             // What is new may be what something animated has become: only then it matters whether it is still drawn.
             let marks = if is_planned && found.age > 2 { Vec::new() } else { self.mark(&found.content) };
-            surveyed.push(Surveyed { number, operation, found, texture: texture_of(frame, draw, images), marks });
+            surveyed.push(Surveyed {
+                number,
+                operation,
+                found,
+                texture: texture_of(frame, draw, images),
+                marks,
+            });
         }
         surveyed
     }
@@ -181,82 +218,126 @@ impl Shapes {
         content.keys.iter().map(mark).collect()
     }
 
+    /// Cuts all draws that have fresh triangles, and finds what these were before.
+    fn parts(&mut self, frame: &Frame, surveyed: &[Surveyed]) -> Vec<Parts> {
+        let is_planned =
+            |s: &Surveyed| self.plans.contains_key(&s.found.bytes) || s.marks.iter().all(Option::is_some);
+        let mut parts: Vec<Parts> = Vec::with_capacity(surveyed.len());
+        for surveyed in surveyed {
+            let draw = match frame.operations.get(surveyed.operation) {
+                Some(Operation::Draw(draw)) if !is_planned(surveyed) => draw,
+                _ => {
+                    parts.push(Parts::new());
+                    continue;
+                }
+            };
+            let whole = &surveyed.found.content;
+            let fresh = |&(first, count): &(u32, u32)| {
+                let marks = &surveyed.marks[first as usize..(first + count) as usize];
+                marks.iter().any(Option::is_none).then(|| Fresh {
+                    first,
+                    count,
+                    content: match count == whole.triangles {
+                        true => Some(whole.clone()),
+                        false => Content::of(frame, draw, first, count).map(Arc::new),
+                    },
+                    former: None,
+                })
+            };
+            let segments = segments(frame, draw, &surveyed.marks);
+            parts.push(segments.iter().map(|segment| (segment.0, segment.1, fresh(segment))).collect());
+        }
+        let fresh = parts.iter_mut().zip(surveyed).flat_map(|(parts, surveyed)| {
+            let fresh = parts.iter_mut().filter_map(|(_, _, fresh)| fresh.as_mut());
+            fresh.filter_map(|fresh| Some((fresh.content.as_deref()?, surveyed.texture, &mut fresh.former)))
+        });
+        let (triangles, now) = (&self.triangles, self.frame);
+        self.formers.take(fresh.collect(), |key| triangles.get(&key).is_some_and(|seen| seen.last == now));
+        parts
+    }
+
     fn stretches(
         &mut self,
         frame: &Frame,
         draw: &Draw,
         surveyed: &Surveyed,
+        parts: Parts,
         objects: &mut Objects,
     ) -> Vec<Stretch> {
         let (content, marks) = (&surveyed.found.content, &surveyed.marks);
-        let whole = |known| vec![Stretch { first: 0, count: content.triangles, known }];
         if content.keys.is_empty() {
-            return whole(Known::Mesh);
+            return vec![Stretch { first: 0, count: content.triangles, known: Known::Mesh }];
         }
         let now = self.frame;
         if let Some((plan, used)) = self.plans.get_mut(&surveyed.found.bytes) {
             *used = now;
             return plan.clone();
         }
-        let is_new = |mark: &Option<u32>| mark.is_none();
         let mut stretches = Vec::new();
-        if !marks.iter().any(is_new) {
-            for (triangle, mark) in marks.iter().enumerate() {
-                push(&mut stretches, triangle as u32, 1, Known::Object(mark.unwrap_or(0)));
-            }
+        if parts.is_empty() {
+            push_known(&mut stretches, 0, marks);
             merge(&mut stretches, content.triangles);
             self.plans.insert(surveyed.found.bytes, (stretches.clone(), now));
             return stretches;
         }
         let mut home = majority(marks);
-        for (first, count) in segments(frame, draw, marks) {
-            let part = &marks[first as usize..(first + count) as usize];
-            if !part.iter().any(is_new) {
-                for (k, mark) in part.iter().enumerate() {
-                    push(&mut stretches, first + k as u32, 1, Known::Object(mark.unwrap_or(0)));
+        // A few large parts are things; many are how a program sends its world.
+        let are_things = parts.len() <= MOST_THINGS;
+        for (first, count, fresh) in parts {
+            match fresh {
+                Some(fresh) => {
+                    let own = are_things && count > SPRITE;
+                    let known = self.fresh(frame, draw, surveyed, fresh, objects, &mut home, own);
+                    push(&mut stretches, first, count, known);
                 }
-                continue;
+                None => push_known(&mut stretches, first, &marks[first as usize..(first + count) as usize]),
             }
-            let known = self.new_triangles(frame, draw, surveyed, (first, count), objects, &mut home);
-            push(&mut stretches, first, count, known);
         }
         merge(&mut stretches, content.triangles);
         stretches
     }
 
-    /// What new triangles belong to: what they were before if they moved, else the object of those around them.
-    fn new_triangles(
+    /// What fresh triangles belong to: what they were before if they moved; else they are a thing of their own, or belong to
+    /// the object of those around them.
+    #[expect(clippy::too_many_arguments, reason = "one step of `stretches`, apart to be read")]
+    fn fresh(
         &mut self,
         frame: &Frame,
         draw: &Draw,
         surveyed: &Surveyed,
-        (first, count): (u32, u32),
+        fresh: Fresh,
         objects: &mut Objects,
         home: &mut Option<u32>,
+        is_own: bool,
     ) -> Known {
-        let texture = surveyed.texture;
+        let Fresh { first, count, content, former } = fresh;
+        let (texture, now) = (surveyed.texture, self.frame);
+        let before = former.as_ref().and_then(|former| former.object);
         let whole = &surveyed.found.content;
-        let part = match count == whole.triangles {
-            true => Some(whole.clone()),
-            false => Content::of(frame, draw, first, count).map(Arc::new),
-        };
-        if let Some(part) = part {
-            let (triangles, now) = (&self.triangles, self.frame);
-            let is_drawn = |key: u64| triangles.get(&key).is_some_and(|seen| seen.last == now);
-            let former = self.formers.take(&part, texture, is_drawn);
+        if let Some(part) = &content {
             let cut = part_of(draw, first, count);
-            if self.formers.note((frame, &cut), &part, texture, former.as_ref(), now) {
-                let known = former.as_ref().and_then(|former| former.object);
+            let counts = self.formers.note((frame, &cut), part, texture, former.as_ref(), now);
+            let is_sprite = count <= SPRITE && self.sprites.contains_key(&texture);
+            let may_move = former.as_ref().is_none_or(|former| !former.rests_at(part));
+            if counts || (is_sprite && may_move) {
+                let mut known = || before.unwrap_or_else(|| objects.add(part, texture));
                 let object = match count {
-                    0..=SPRITE => *self.sprites.entry(texture).or_insert_with(|| objects.add(&part, texture)),
-                    _ => known.unwrap_or_else(|| objects.add(&part, texture)),
+                    0..=SPRITE => *self.sprites.entry(texture).or_insert_with(known),
+                    _ => known(),
                 };
-                self.formers.assign(&part, texture, object);
+                self.formers.assign(part, texture, object);
                 return Known::Animated(object, former.map(|former| former.corners).unwrap_or_default());
             }
         }
-        let object = *home.get_or_insert_with(|| objects.add(whole, texture));
-        let seen = Seen { object, first: self.frame, last: self.frame };
+        let object = match content.as_ref().filter(|_| is_own) {
+            _ if before.is_some() => before.unwrap_or(0),
+            Some(part) => objects.add(part, texture),
+            None => *home.get_or_insert_with(|| objects.add(whole, texture)),
+        };
+        if let Some(part) = &content {
+            self.formers.assign(part, texture, object);
+        }
+        let seen = Seen { object, first: now, last: now };
         for &key in &whole.keys[first as usize..(first + count) as usize] {
             self.triangles.entry(key).or_insert(seen);
         }
@@ -299,7 +380,18 @@ fn segments(frame: &Frame, draw: &Draw, marks: &[Option<u32>]) -> Vec<(u32, u32)
     ends.sort_unstable();
     ends.dedup();
     let mut start = 0;
-    ends.into_iter().filter(|&end| end > 0).map(|end| (std::mem::replace(&mut start, end), end)).map(|(s, e)| (s, e - s)).collect()
+    ends.into_iter()
+        .filter(|&end| end > 0)
+        .map(|end| (std::mem::replace(&mut start, end), end))
+        .map(|(s, e)| (s, e - s))
+        .collect()
+}
+
+/// Adds triangles all of which are known.
+fn push_known(stretches: &mut Vec<Stretch>, first: u32, marks: &[Option<u32>]) {
+    for (triangle, mark) in (first..).zip(marks) {
+        push(stretches, triangle, 1, Known::Object(mark.unwrap_or(0)));
+    }
 }
 
 /// Adds a stretch, to the one before where both belong to the same.
@@ -312,7 +404,11 @@ fn push(stretches: &mut Vec<Stretch>, first: u32, count: u32, known: Known) {
             }
             (Known::Animated(a, before), Known::Animated(b, corners)) if a == b => {
                 let complete = before.len() as u32 == 3 * last.count && corners.len() as u32 == 3 * count;
-                if complete { before.extend_from_slice(corners) } else { before.clear() }
+                if complete {
+                    before.extend_from_slice(corners)
+                } else {
+                    before.clear()
+                }
                 last.count += count;
                 return;
             }

@@ -41,6 +41,11 @@ pub struct Former {
 }
 
 impl Former {
+    /// Whether it has been where it is for long.
+    pub fn has_settled(&self, content: &Content) -> bool {
+        self.rests.0 > RESTED && self.rests_at(content)
+    }
+
     /// Whether it is where it was.
     pub fn rests_at(&self, content: &Content) -> bool {
         self.rests.1 == content.positions
@@ -66,7 +71,7 @@ impl Formers {
         (self.noted, self.frame) = (0, frame);
         for (kind, formers) in waiting {
             let awaited =
-                |former: &Former| former.streak >= STREAK && frame.wrapping_sub(former.frame) < AWAITED;
+                |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
             let mut awaited: Vec<Former> = formers.into_iter().filter(awaited).collect();
             if !awaited.is_empty() {
                 self.before.entry(kind).or_default().append(&mut awaited);
@@ -81,8 +86,7 @@ impl Formers {
             let kind = (content.topology, *texture, content.triangles);
             let Some(formers) = self.before.get(&kind) else { continue };
             let may_be = |former: &Former| {
-                let rests = former.rests.0 > RESTED && former.rests_at(content);
-                !rests && self.may_go(former, content, formers.len()) && !is_drawn(former.first_key)
+                self.may_go(former, content, formers.len()) && !is_drawn(former.first_key)
             };
             let candidates =
                 formers.iter().enumerate().filter(|(_, former)| may_be(former)).take(MOST_COMPARED);

@@ -120,7 +120,7 @@ impl Shapes {
         is_wanted: impl Fn(&Frame, &Draw) -> bool,
     ) -> Vec<Option<Piece>> {
         self.next_frame();
-        let surveyed = self.survey(frame, images, is_wanted);
+        let surveyed = self.survey(frame, images, objects, is_wanted);
         let parts = self.parts(frame, &surveyed);
         let mut pieces: Vec<Option<Piece>> = Vec::with_capacity(surveyed.len());
         let mut cuts: Vec<(usize, Vec<(u32, u32)>)> = Vec::new();
@@ -186,6 +186,7 @@ impl Shapes {
         &mut self,
         frame: &Frame,
         images: &Images,
+        objects: &Objects,
         is_wanted: impl Fn(&Frame, &Draw) -> bool,
     ) -> Vec<Surveyed> {
         let mut surveyed = Vec::new();
@@ -196,7 +197,7 @@ impl Shapes {
             let Some(found) = self.contents.of(frame, draw) else { continue };
             let is_planned = self.plans.contains_key(&found.bytes);
             // What is new may be what something animated has become: only then it matters whether it is still drawn.
-            let marks = if is_planned && found.age > 2 { Vec::new() } else { self.mark(&found.content) };
+            let marks = if is_planned && found.age > 2 { Vec::new() } else { self.mark(&found.content, objects) };
             surveyed.push(Surveyed {
                 number,
                 operation,
@@ -208,12 +209,14 @@ impl Shapes {
         surveyed
     }
 
-    fn mark(&mut self, content: &Content) -> Vec<Option<u32>> {
+    /// The objects of triangles. Those of an animated one may come again as they were, but are never known for that.
+    fn mark(&mut self, content: &Content, objects: &Objects) -> Vec<Option<u32>> {
         let now = self.frame;
         let mark = |key: &u64| {
             let seen = self.triangles.get_mut(key)?;
             seen.last = now;
-            Some(seen.object)
+            let is_animated = objects.get(seen.object).is_some_and(|object| object.is_animated);
+            (!is_animated).then_some(seen.object)
         };
         content.keys.iter().map(mark).collect()
     }
@@ -317,17 +320,22 @@ impl Shapes {
         if let Some(part) = &content {
             let cut = part_of(draw, first, count);
             let counts = self.formers.note((frame, &cut), part, texture, former.as_ref(), now);
+            let has_settled = former.as_ref().is_some_and(|former| former.has_settled(part));
             let is_sprite = count <= SPRITE && self.sprites.contains_key(&texture);
             let may_move = former.as_ref().is_none_or(|former| !former.rests_at(part));
-            if counts || (is_sprite && may_move) {
+            if (counts && !has_settled) || (is_sprite && may_move) {
                 let mut known = || before.unwrap_or_else(|| objects.add(part, texture));
                 let object = match count {
                     0..=SPRITE => *self.sprites.entry(texture).or_insert_with(known),
                     _ => known(),
                 };
                 self.formers.assign(part, texture, object);
+                objects.set_animated(object, true);
                 return Known::Animated(object, former.map(|former| former.corners).unwrap_or_default());
             }
+        }
+        if let Some(object) = before {
+            objects.set_animated(object, false);
         }
         let object = match content.as_ref().filter(|_| is_own) {
             _ if before.is_some() => before.unwrap_or(0),

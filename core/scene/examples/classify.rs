@@ -83,7 +83,12 @@ impl Report {
         }
         if std::env::var_os("TIMELINE").is_some() {
             let eye = scene.camera.map(|c| c.view.inverse().w_axis.truncate());
-            eprintln!("{} {:?} {:?}", self.frames, eye, scene.triangles().named().iter().filter(|n| n.1 > 0).collect::<Vec<_>>());
+            eprintln!(
+                "{} {:?} {:?}",
+                self.frames,
+                eye,
+                scene.triangles().named().iter().filter(|n| n.1 > 0).collect::<Vec<_>>()
+            );
         }
         if self.wanted == Some(self.frames) {
             print_draws(frame, &scene);

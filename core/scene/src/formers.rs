@@ -70,13 +70,19 @@ impl Formers {
         let waiting = std::mem::replace(&mut self.before, std::mem::take(&mut self.now));
         (self.noted, self.frame) = (0, frame);
         for (kind, formers) in waiting {
-            let awaited =
-                |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
+            let awaited = |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
             let mut awaited: Vec<Former> = formers.into_iter().filter(awaited).collect();
             if !awaited.is_empty() {
                 self.before.entry(kind).or_default().append(&mut awaited);
             }
         }
+    }
+
+    /// Whether something animated of the same kind is waited for.
+    pub fn expect(&self, content: &Content, texture: u64) -> bool {
+        let formers = self.before.get(&(content.topology, texture, content.triangles));
+        let is_animated = |former: &Former| former.streak >= STREAK;
+        content.triangles > SPRITE && formers.is_some_and(|formers| formers.iter().any(is_animated))
     }
 
     /// Finds what fresh triangles were before, the nearest first. `is_drawn` tells whether a triangle is in this frame.
@@ -86,7 +92,8 @@ impl Formers {
             let kind = (content.topology, *texture, content.triangles);
             let Some(formers) = self.before.get(&kind) else { continue };
             let may_be = |former: &Former| {
-                self.may_go(former, content, formers.len()) && !is_drawn(former.first_key)
+                let is_same = content.keys.first() == Some(&former.first_key);
+                self.may_go(former, content, formers.len()) && (is_same || !is_drawn(former.first_key))
             };
             let candidates =
                 formers.iter().enumerate().filter(|(_, former)| may_be(former)).take(MOST_COMPARED);

@@ -94,8 +94,12 @@ struct Surveyed {
     operation: usize,
     found: Found,
     texture: u64,
-    /// The object of each triangle; empty where a plan is known.
+    /// There is a plan for it.
+    is_planned: bool,
+    /// The object of each triangle; none of those that are animated. Empty where a plan is known.
     marks: Vec<Option<u32>>,
+    /// The object that most triangles belonged to when they were seen.
+    known: Option<u32>,
 }
 
 /// Triangles of a draw some of which nobody has seen before.
@@ -121,7 +125,7 @@ impl Shapes {
     ) -> Vec<Option<Piece>> {
         self.next_frame();
         let surveyed = self.survey(frame, images, objects, is_wanted);
-        let parts = self.parts(frame, &surveyed);
+        let parts = self.parts(frame, &surveyed, objects);
         let mut pieces: Vec<Option<Piece>> = Vec::with_capacity(surveyed.len());
         let mut cuts: Vec<(usize, Vec<(u32, u32)>)> = Vec::new();
         let mut draws = 0;
@@ -195,34 +199,46 @@ impl Shapes {
                 continue;
             }
             let Some(found) = self.contents.of(frame, draw) else { continue };
-            let is_planned = self.plans.contains_key(&found.bytes);
+            let texture = texture_of(frame, draw, images);
+            let is_expected = self.formers.expect(&found.content, texture);
+            let is_planned = !is_expected && self.plan(found.bytes, objects);
             // What is new may be what something animated has become: only then it matters whether it is still drawn.
-            let marks = if is_planned && found.age > 2 { Vec::new() } else { self.mark(&found.content, objects) };
-            surveyed.push(Surveyed {
-                number,
-                operation,
-                found,
-                texture: texture_of(frame, draw, images),
-                marks,
-            });
+            let seen = if is_planned && found.age > 2 { Vec::new() } else { self.see(&found.content) };
+            let known = majority(&seen);
+            // Those of something animated may come again as they were, but are never known for that.
+            let is_known =
+                |object: &u32| !is_expected && objects.get(*object).is_some_and(|object| !object.is_animated);
+            let marks = seen.into_iter().map(|mark| mark.filter(is_known)).collect();
+            surveyed.push(Surveyed { number, operation, found, texture, is_planned, marks, known });
         }
         surveyed
     }
 
-    /// The objects of triangles. Those of an animated one may come again as they were, but are never known for that.
-    fn mark(&mut self, content: &Content, objects: &Objects) -> Vec<Option<u32>> {
+    /// Whether there is a plan for a draw of these bytes, and nothing in it is animated now.
+    fn plan(&mut self, bytes: u64, objects: &Objects) -> bool {
         let now = self.frame;
-        let mark = |key: &u64| {
+        let is_animated = |stretch: &Stretch| match stretch.known {
+            Known::Object(object) => objects.get(object).is_none_or(|object| object.is_animated),
+            _ => true,
+        };
+        let Some((plan, used)) = self.plans.get_mut(&bytes) else { return false };
+        *used = now;
+        !plan.iter().any(is_animated)
+    }
+
+    /// The object that each triangle belonged to so far. They are drawn now.
+    fn see(&mut self, content: &Content) -> Vec<Option<u32>> {
+        let now = self.frame;
+        let see = |key: &u64| {
             let seen = self.triangles.get_mut(key)?;
             seen.last = now;
-            let is_animated = objects.get(seen.object).is_some_and(|object| object.is_animated);
-            (!is_animated).then_some(seen.object)
+            Some(seen.object)
         };
-        content.keys.iter().map(mark).collect()
+        content.keys.iter().map(see).collect()
     }
 
     /// Cuts all draws that have fresh triangles, and finds what these were before.
-    fn parts(&mut self, frame: &Frame, surveyed: &[Surveyed]) -> Vec<Parts> {
+    fn parts(&mut self, frame: &Frame, surveyed: &[Surveyed], objects: &Objects) -> Vec<Parts> {
         let is_planned =
             |s: &Surveyed| self.plans.contains_key(&s.found.bytes) || s.marks.iter().all(Option::is_some);
         let mut parts: Vec<Parts> = Vec::with_capacity(surveyed.len());
@@ -255,7 +271,10 @@ impl Shapes {
             fresh.filter_map(|fresh| Some((fresh.content.as_deref()?, surveyed.texture, &mut fresh.former)))
         });
         let (triangles, now) = (&self.triangles, self.frame);
-        self.formers.take(fresh.collect(), |key| triangles.get(&key).is_some_and(|seen| seen.last == now));
+        self.formers.take(fresh.collect(), |key| {
+            let drawn = triangles.get(&key).filter(|seen| seen.last == now);
+            drawn.is_some_and(|seen| objects.get(seen.object).is_none_or(|object| !object.is_animated))
+        });
         parts
     }
 
@@ -271,16 +290,14 @@ impl Shapes {
         if content.keys.is_empty() {
             return vec![Stretch { first: 0, count: content.triangles, known: Known::Mesh }];
         }
-        let now = self.frame;
-        if let Some((plan, used)) = self.plans.get_mut(&surveyed.found.bytes) {
-            *used = now;
+        if let Some((plan, _)) = self.plans.get(&surveyed.found.bytes).filter(|_| surveyed.is_planned) {
             return plan.clone();
         }
         let mut stretches = Vec::new();
         if parts.is_empty() {
             push_known(&mut stretches, 0, marks);
             merge(&mut stretches, content.triangles);
-            self.plans.insert(surveyed.found.bytes, (stretches.clone(), now));
+            self.plans.insert(surveyed.found.bytes, (stretches.clone(), self.frame));
             return stretches;
         }
         let mut home = majority(marks);
@@ -316,6 +333,7 @@ impl Shapes {
         let Fresh { first, count, content, former } = fresh;
         let (texture, now) = (surveyed.texture, self.frame);
         let before = former.as_ref().and_then(|former| former.object);
+        let before = before.or(surveyed.known.filter(|_| count == surveyed.found.content.triangles));
         let whole = &surveyed.found.content;
         if let Some(part) = &content {
             let cut = part_of(draw, first, count);

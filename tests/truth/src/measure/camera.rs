@@ -11,7 +11,7 @@ use super::Observed;
 use crate::truth::{TrueCamera, Truth};
 
 /// A camera is right within this, relative to the world's extent and in radians.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-4;
 
 /// What was measured of the camera.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -20,7 +20,7 @@ pub struct CameraScore {
     pub shown: usize,
     /// Share of them in which a camera was found.
     pub found: f64,
-    /// Share of them in which it is right, to a thousandth.
+    /// Share of them in which it is right, to a ten-thousandth.
     pub right: f64,
     /// Frames without a world in which a camera was found.
     pub invented: usize,

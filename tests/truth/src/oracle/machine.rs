@@ -7,7 +7,7 @@ use std::rc::Rc;
 use afterglow_api::constants::*;
 use glam::{DMat4, Vec3};
 
-use super::step::{Memory, Step};
+use super::step::{Memory, Opacity, Step};
 use super::triangles;
 
 /// State that draws meet.
@@ -29,6 +29,8 @@ pub struct State {
     pub stencil_op: [u32; 3],
     /// glViewport.
     pub viewport: [i32; 4],
+    /// What alpha is compared with, wherever it is tested.
+    pub alpha_reference: f32,
     /// Names of the textures of the first units, where they are enabled.
     pub textures: [Option<u32>; 4],
     bound: [u32; 4],
@@ -47,6 +49,7 @@ impl State {
             color_mask: true,
             stencil_op: [GL_KEEP; 3],
             viewport: [0; 4],
+            alpha_reference: 0.0,
             textures: [None; 4],
             bound: [0; 4],
             on: Default::default(),
@@ -106,6 +109,8 @@ pub struct Drawn {
     pub projection: DMat4,
     /// State that it meets.
     pub state: Rc<State>,
+    /// How opaque the texture of unit 0 is.
+    pub opacity: Opacity,
     /// Display lists that it is in, outermost first.
     pub lists: Rc<[u32]>,
     /// Buffer that holds its vertices, or 0.
@@ -167,6 +172,8 @@ pub struct Machine {
     shared_stack: Option<Rc<[DMat4]>>,
     projection: Vec<DMat4>,
     begun: Option<(u32, Vec<Vec3>)>,
+    /// By texture.
+    opacities: HashMap<u32, Opacity>,
     buffers: HashMap<u32, Vec<u8>>,
     array_buffer: u32,
     index_buffer: u32,
@@ -198,6 +205,7 @@ impl Default for Machine {
             shared_stack: None,
             projection: vec![DMat4::IDENTITY],
             begun: None,
+            opacities: HashMap::new(),
             buffers: HashMap::new(),
             array_buffer: 0,
             index_buffer: 0,
@@ -364,6 +372,10 @@ impl Machine {
                     state.textures[state.unit] = Some(*name);
                 }
             }
+            Step::AlphaReference(reference) => state.alpha_reference = *reference,
+            Step::Image(GL_TEXTURE_2D, opacity) => {
+                self.opacities.insert(state.bound[state.unit], *opacity);
+            }
             Step::PushAttrib(mask) => self.saved.push((*mask, state.clone())),
             Step::PopAttrib => {
                 if let Some((mask, saved)) = self.saved.pop() {
@@ -478,6 +490,10 @@ impl Machine {
             triangles: keys.len() as u64,
             stack,
             projection: self.projection.last().copied().unwrap_or(DMat4::IDENTITY),
+            opacity: match state.textures[0] {
+                Some(name) => self.opacities.get(&name).copied().unwrap_or(Opacity::Unknown),
+                None => Opacity::Opaque,
+            },
             state,
             lists: self.called.as_slice().into(),
             buffer,
@@ -509,6 +525,7 @@ fn restore(state: &mut State, mask: u32, saved: &State) {
     }
     if mask & GL_COLOR_BUFFER_BIT != 0 {
         (state.blend, state.color_mask) = (saved.blend, saved.color_mask);
+        state.alpha_reference = saved.alpha_reference;
     }
     if mask & GL_DEPTH_BUFFER_BIT != 0 {
         (state.depth_func, state.depth_mask) = (saved.depth_func, saved.depth_mask);

@@ -11,6 +11,7 @@ mod report;
 mod step;
 mod stormbaan;
 mod things;
+mod torcs;
 mod triangles;
 
 use std::path::Path;
@@ -23,6 +24,7 @@ use anyhow::Context;
 use crate::truth::{FrameTruth, Label, TrueCamera, Truth};
 pub use machine::{Drawn, Machine, State};
 pub use report::{write_counts, write_draws};
+pub use step::Opacity;
 
 /// What an oracle says of a frame.
 #[derive(Debug, Clone, Default)]
@@ -57,6 +59,12 @@ pub const ORACLES: &[Oracle] = &[
         program: "Stormbaan Coureur: a matrix for each part, view and model multiplied by the program",
         extent: 50.0,
         judge: stormbaan::judge,
+    },
+    Oracle {
+        name: "torcs",
+        program: "TORCS: plib's scene graph, a background, a track in leaves, cars in parts",
+        extent: 3000.0,
+        judge: torcs::judge,
     },
 ];
 

@@ -53,7 +53,7 @@ pub fn write_draws(out: &mut impl Write, drawn: &[Drawn], judged: &Judged) -> io
         .collect();
         writeln!(
             out,
-            "{:>4} {:<11} {:>6} tri {:>5} mode {} {flags} func {:x} blend {blend} tex {:?} lists {:?} buf {} \
+            "{:>4} {:<11} {:>6} tri {:>5} mode {} {flags} func {:x} blend {blend} {:?}>{} tex {:?} lists {:?} buf {} \
              stack {} lock {} view {:?} range {:?} at {:.2} {:.2} {:.2} box {:.1} {:.1} {:.1} .. {:.1} {:.1} {:.1}",
             drawn.index,
             CLASSES[class_index(*class)].1,
@@ -61,6 +61,8 @@ pub fn write_draws(out: &mut impl Write, drawn: &[Drawn], judged: &Judged) -> io
             drawn.triangles,
             drawn.mode,
             state.depth_func,
+            drawn.opacity,
+            state.alpha_reference,
             state.textures.iter().flatten().collect::<Vec<_>>(),
             drawn.lists,
             drawn.buffer,

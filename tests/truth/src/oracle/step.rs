@@ -58,6 +58,10 @@ pub enum Step {
     Clear(u32),
     /// glBindTexture: target, name.
     Texture(u32, u32),
+    /// glTexImage2D of level 0: target, and how opaque the texels are.
+    Image(u32, Opacity),
+    /// glAlphaFunc: the reference.
+    AlphaReference(f32),
     /// glActiveTexture, counted from 0.
     Unit(usize),
     /// glClientActiveTexture and the like, and whatever else separates draws without changing what is kept.
@@ -93,6 +97,42 @@ pub enum Memory {
     Bytes(Arc<[u8]>),
     /// In the buffer that is bound.
     Offset(usize),
+}
+
+/// How opaque a texture is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Opacity {
+    /// Nothing is seen through it.
+    Opaque,
+    /// Texels are solid or empty, but for the edges between.
+    CutOut,
+    /// Much of it is half seen through.
+    Mixed,
+    /// It has content that was not read.
+    Unknown,
+}
+
+/// Share of texels that may be neither solid nor empty: edges.
+const EDGES: f64 = 0.2;
+
+impl Opacity {
+    /// That of texels of so many bytes, the last of which is alpha if there are two or four.
+    fn of(texels: &[u8], bytes: usize) -> Opacity {
+        if bytes != 2 && bytes != 4 {
+            return Opacity::Opaque;
+        }
+        let (mut solid, mut empty, mut all) = (0u32, 0u32, 0u32);
+        for alpha in texels.chunks_exact(bytes).map(|texel| texel[bytes - 1]) {
+            solid += u32::from(alpha >= 240);
+            empty += u32::from(alpha < 16);
+            all += 1;
+        }
+        match f64::from(all - solid - empty) {
+            _ if all == solid => Opacity::Opaque,
+            between if between <= EDGES * f64::from(all) => Opacity::CutOut,
+            _ => Opacity::Mixed,
+        }
+    }
 }
 
 /// The arguments of a call.
@@ -254,6 +294,20 @@ fn state(command: CommandId, a: &Args) -> Option<Step> {
         id::glViewport => Step::Viewport([a.int(0)?, a.int(1)?, a.int(2)?, a.int(3)?]),
         id::glClear => Step::Clear(a.uint(0)?),
         id::glBindTexture => Step::Texture(a.uint(0)?, a.uint(1)?),
+        id::glTexImage2D if a.int(1)? == 0 => {
+            let bytes = match (a.uint(6)?, a.uint(7)?) {
+                (GL_RGBA | GL_BGRA, GL_UNSIGNED_BYTE | GL_UNSIGNED_INT_8_8_8_8_REV) => 4,
+                (GL_LUMINANCE_ALPHA, GL_UNSIGNED_BYTE) => 2,
+                (GL_ALPHA, GL_UNSIGNED_BYTE) => 0,
+                _ => 3,
+            };
+            let opacity = match a.0.arg(8).as_blob() {
+                Some(texels) if bytes > 0 => Opacity::of(texels, bytes),
+                _ => Opacity::Unknown,
+            };
+            Step::Image(a.uint(0)?, opacity)
+        }
+        id::glAlphaFunc => Step::AlphaReference(a.float(1)? as f32),
         id::glActiveTexture => Step::Unit(a.uint(0)?.wrapping_sub(GL_TEXTURE0) as usize),
         id::glLockArraysEXT => Step::Lock(true),
         id::glUnlockArraysEXT => Step::Lock(false),

@@ -160,3 +160,23 @@ impl Things {
         Some((class, if is_nameless { UNNAMED + thing.object } else { thing.object }))
     }
 }
+
+/// Numbers what is told apart by its content alone.
+#[derive(Debug)]
+pub struct Numbers {
+    known: HashMap<u64, u64>,
+    first: u64,
+}
+
+impl Numbers {
+    /// Numbers from `first` on.
+    pub fn from(first: u64) -> Numbers {
+        Numbers { known: HashMap::new(), first }
+    }
+
+    /// The number of what has that content.
+    pub fn of(&mut self, content: u64) -> u64 {
+        let next = self.first + self.known.len() as u64;
+        *self.known.entry(content).or_insert(next)
+    }
+}

@@ -105,6 +105,8 @@ pub struct Drawn {
     pub triangles: u64,
     /// MODELVIEW matrices, the current one last.
     pub stack: Rc<[DMat4]>,
+    /// The matrix that MODELVIEW was last set to as a whole, before what was multiplied to it.
+    pub loaded: DMat4,
     /// The current PROJECTION matrix.
     pub projection: DMat4,
     /// State that it meets.
@@ -170,6 +172,7 @@ pub struct Machine {
     mode: u32,
     modelview: Vec<DMat4>,
     shared_stack: Option<Rc<[DMat4]>>,
+    loaded: DMat4,
     projection: Vec<DMat4>,
     begun: Option<(u32, Vec<Vec3>)>,
     /// By texture.
@@ -203,6 +206,7 @@ impl Default for Machine {
             mode: GL_MODELVIEW,
             modelview: vec![DMat4::IDENTITY],
             shared_stack: None,
+            loaded: DMat4::IDENTITY,
             projection: vec![DMat4::IDENTITY],
             begun: None,
             opacities: HashMap::new(),
@@ -269,7 +273,12 @@ impl Machine {
     fn perform(&mut self, step: &Step) -> Option<Vec<Drawn>> {
         match step {
             Step::MatrixMode(mode) => self.mode = *mode,
-            Step::Load(matrix) => self.change_matrix(|current| *current = *matrix),
+            Step::Load(matrix) => {
+                if self.mode == GL_MODELVIEW {
+                    self.loaded = *matrix;
+                }
+                self.change_matrix(|current| *current = *matrix);
+            }
             Step::Multiply(matrix) => self.change_matrix(|current| *current *= *matrix),
             Step::Push => self.change_stack(|stack| stack.extend(stack.last().copied())),
             Step::Pop => self.change_stack(|stack| {
@@ -489,6 +498,7 @@ impl Machine {
             mode,
             triangles: keys.len() as u64,
             stack,
+            loaded: self.loaded,
             projection: self.projection.last().copied().unwrap_or(DMat4::IDENTITY),
             opacity: match state.textures[0] {
                 Some(name) => self.opacities.get(&name).copied().unwrap_or(Opacity::Unknown),

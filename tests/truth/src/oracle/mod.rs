@@ -6,6 +6,7 @@
 //! oracle cannot know, it says [`Class::Undecided`], and those triangles are left out of the figures.
 
 mod machine;
+mod minetest;
 mod openarena;
 mod report;
 mod step;
@@ -65,6 +66,12 @@ pub const ORACLES: &[Oracle] = &[
         program: "TORCS: plib's scene graph, a background, a track in leaves, cars in parts",
         extent: 3000.0,
         judge: torcs::judge,
+    },
+    Oracle {
+        name: "minetest",
+        program: "Minetest on Irrlicht: blocks of nodes, each with a matrix, streaming in",
+        extent: 1200.0,
+        judge: minetest::judge,
     },
 ];
 

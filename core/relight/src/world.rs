@@ -1,0 +1,111 @@
+//! Rays through the static world.
+
+use crate::types::{Baked, Sky};
+use afterglow_bvh::{
+    Blas, IDENTITY, Instance, Quality, Query, Ray, Scene, Tlas, build_blas, build_tlas, trace,
+};
+use glam::Vec3;
+use std::cell::Cell;
+
+/// The one bottom level's address; any multiple of 16 would do.
+const ADDRESS: u64 = 16;
+
+/// The occluders and the sky's surfaces, ready for rays.
+pub(crate) struct World {
+    blas: Blas,
+    tlas: Option<Tlas>,
+    /// Primitives from this number on are sky.
+    first_sky: u32,
+    open: bool,
+    /// Length of the diagonal of what lies in the world.
+    pub size: f32,
+    rays: Cell<u64>,
+}
+
+/// What a ray meets.
+pub(crate) enum Met {
+    /// The sky.
+    Sky,
+    /// A surface, in lengths of the direction.
+    Surface(f32),
+    /// Nothing, where that is not sky.
+    Nothing,
+}
+
+impl World {
+    /// None where there are more triangles than a structure holds.
+    pub fn new(baked: &Baked, size: f32) -> Option<Self> {
+        let sky = if let Sky::Surfaces(triangles) = baked.sky { triangles } else { &[] };
+        let corners = baked.triangles.iter().chain(sky).flatten();
+        let positions: Vec<[f32; 3]> = corners.map(Vec3::to_array).collect();
+        let count = u32::try_from(positions.len() / 3).ok().filter(|&count| count < u32::MAX / 3)?;
+        let indices: Vec<[u32; 3]> = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let blas = build_blas(&positions, &indices, Quality::Good).ok()?;
+        let instance = Instance {
+            object_to_world: IDENTITY,
+            blas: ADDRESS,
+            bounds: blas.bounds,
+            id: 0,
+            mask: 1,
+            flags: 0,
+        };
+        let tlas = if blas.triangle_count == 0 { None } else { Some(build_tlas(&[instance]).ok()?) };
+        Some(Self {
+            blas,
+            tlas,
+            first_sky: baked.triangles.len() as u32,
+            open: baked.sky == Sky::Open,
+            size,
+            rays: Cell::new(0),
+        })
+    }
+
+    /// How many rays were traced.
+    pub fn rays(&self) -> u64 {
+        self.rays.get()
+    }
+
+    /// How far off its surface a ray starts.
+    pub fn offset(&self) -> f32 {
+        self.size * 2e-5
+    }
+
+    /// The sky can be seen somewhere.
+    pub fn has_sky(&self) -> bool {
+        self.open || self.first_sky < self.blas.triangle_count + self.blas.skipped
+    }
+
+    /// Nothing lies between the two points.
+    pub fn visible(&self, from: Vec3, to: Vec3) -> bool {
+        let ray = Ray { origin: from, t_min: 0.0, direction: to - from, t_max: 0.9999 };
+        self.trace(&ray, true).is_none()
+    }
+
+    /// What a ray of any length meets first.
+    pub fn first(&self, origin: Vec3, direction: Vec3) -> Met {
+        let ray = Ray { origin, t_min: 0.0, direction, t_max: f32::INFINITY };
+        match self.trace(&ray, false) {
+            Some((_, primitive)) if primitive >= self.first_sky => Met::Sky,
+            Some((t, _)) => Met::Surface(t),
+            None if self.open => Met::Sky,
+            None => Met::Nothing,
+        }
+    }
+
+    /// The sky is seen along this direction.
+    pub fn sees_sky(&self, origin: Vec3, direction: Vec3) -> bool {
+        if self.open {
+            let ray = Ray { origin, t_min: 0.0, direction, t_max: f32::INFINITY };
+            return self.trace(&ray, true).is_none();
+        }
+        matches!(self.first(origin, direction), Met::Sky)
+    }
+
+    fn trace(&self, ray: &Ray, any_hit: bool) -> Option<(f32, u32)> {
+        self.rays.set(self.rays.get() + 1);
+        let tlas = &self.tlas.as_ref()?.words;
+        let scene = Scene { tlas, blas: &|_| Some(&self.blas.words) };
+        let hit = trace(&scene, ray, Query { mask: 1, any_hit }, &|_, _, _| true)?;
+        Some((hit.t, hit.primitive))
+    }
+}

@@ -7,6 +7,8 @@ use crate::types::{Emitter, Falloff, Source};
 use crate::world::World;
 use glam::Vec3;
 
+/// Squared distances up to this many areas of a patch are near.
+const NEAR: f32 = 16.0;
 /// Most triangles of an emitter that are looked at.
 const MOST_TRIANGLES: usize = 512;
 
@@ -81,6 +83,10 @@ pub(crate) struct Optics<'a> {
     pub panels: &'a [Panel],
     /// Irradiance from a sky of radiance 1.
     pub sky: Vec<f32>,
+    /// Where a sun may shine.
+    pub near_sky: Vec<bool>,
+    /// Points of a sample that suns are looked for from, 1 or 4: where a sun's light ends, a patch has a part of it.
+    pub sun_points: usize,
     /// Rays to an emitter or to a sun with a width, from one sample.
     pub area_rays: u32,
     pub seed: u64,
@@ -111,16 +117,41 @@ impl Optics<'_> {
     }
 
     fn from_point(&self, i: usize, position: Vec3, radius: f32, falloff: Falloff) -> f32 {
-        let to = position - self.samples.position[i];
-        let factor = point_factor(self.samples.normal[i], to, radius, falloff);
-        if factor > 0.0 && self.world.visible(self.origin(i), position) { factor } else { 0.0 }
+        let (normal, to) = (self.samples.normal[i], position - self.samples.position[i]);
+        let mut factor = point_factor(normal, to, radius, falloff);
+        if factor <= 0.0 || !self.world.visible(self.origin(i), position) {
+            return 0.0;
+        }
+        // Near a light the middle of a patch is brighter than the rest.
+        if to.length_squared() < NEAR * self.samples.area[i] {
+            let aside = self.quarters(i).map(|aside| point_factor(normal, to - aside, radius, falloff));
+            factor = 0.25 * aside.iter().sum::<f32>();
+        }
+        factor
+    }
+
+    /// The middles of a patch's quarters, from its own. How the square lies is not known, but whatever way it is turned,
+    /// these points are inside.
+    fn quarters(&self, i: usize) -> [Vec3; 4] {
+        let (tangent, bitangent) = self.samples.normal[i].any_orthonormal_pair();
+        let side = 0.25 * self.samples.area[i].sqrt();
+        [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+            .map(|(x, y)| (tangent * x + bitangent * y) * side)
     }
 
     fn from_sun(&self, i: usize, direction: Vec3, angular_radius: f32) -> f32 {
-        let cosine = self.samples.normal[i].dot(direction);
+        if !self.near_sky[i] || self.samples.normal[i].dot(direction) < -angular_radius.sin() {
+            return 0.0;
+        }
+        let origin = self.origin(i);
+        let lit = |aside: Vec3, towards: Vec3| {
+            let cosine = self.samples.normal[i].dot(towards);
+            if cosine > 0.0 && self.world.sees_sky(origin + aside, towards) { cosine } else { 0.0 }
+        };
         if angular_radius == 0.0 {
-            let lit = cosine > 0.0 && self.world.sees_sky(self.origin(i), direction);
-            return if lit { cosine } else { 0.0 };
+            let asides = if self.sun_points == 1 { [Vec3::ZERO; 4] } else { self.quarters(i) };
+            let asides = &asides[..self.sun_points];
+            return asides.iter().map(|&aside| lit(aside, direction)).sum::<f32>() / self.sun_points as f32;
         }
         let (tangent, bitangent) = direction.any_orthonormal_pair();
         let turn = hash(self.seed, u64::from(self.samples.number[i]));
@@ -128,13 +159,8 @@ impl Optics<'_> {
             let square = spread(ray, turn);
             let (across, angle) = (angular_radius * square.x.sqrt(), square.y * std::f32::consts::TAU);
             let aside = tangent * angle.cos() + bitangent * angle.sin();
-            let towards = direction + aside * across.tan();
-            let cosine = self.samples.normal[i].dot(towards) / towards.length();
-            if cosine > 0.0 && self.world.sees_sky(self.origin(i), towards) { cosine } else { 0.0 }
+            lit(Vec3::ZERO, (direction + aside * across.tan()).normalize())
         };
-        if cosine < -angular_radius.sin() {
-            return 0.0;
-        }
         (0..self.area_rays).map(one).sum::<f32>() / self.area_rays as f32
     }
 

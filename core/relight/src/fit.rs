@@ -3,13 +3,21 @@
 use crate::column::Optics;
 use crate::gather::Gathered;
 use crate::nnls::Normal;
-use crate::samples::pick;
 use crate::types::Source;
 
 /// More bounced light than the albedos allow is possible only so far as they are guesses.
 const MOST_BOUNCE: f64 = 1.5;
 /// Numbers of a fit that are no sources: ambient and bounced light.
 const BASE: usize = 2;
+
+/// Which reflections a bake holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Bounces {
+    /// One, of the sources' own light.
+    First,
+    /// All of them.
+    All,
+}
 
 /// A source under consideration.
 pub(crate) struct Atom {
@@ -24,7 +32,10 @@ pub(crate) struct Fit<'a> {
     pub optics: &'a Optics<'a>,
     pub atoms: Vec<Atom>,
     pub ambient: [f64; 3],
+    /// The share of bounced light, channel by channel.
     pub bounce: [f64; 3],
+    /// Which bounces it has.
+    pub bounces: Bounces,
     /// Bake less model, channel by channel.
     pub residual: [Vec<f32>; 3],
     /// What squared residuals count, channel by channel: 0 where a clipped bake is reached.
@@ -36,8 +47,8 @@ pub(crate) struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// Without sources; `kept` says which of the gathered samples the optics have.
-    pub fn new(optics: &'a Optics<'a>, gathered: &Gathered, kept: &[usize]) -> Self {
+    /// Without sources; `bounced` is the light of all bounces.
+    pub fn new(optics: &'a Optics<'a>, bounced: [Vec<f32>; 3]) -> Self {
         let samples = optics.samples;
         let count = samples.len();
         let mut fit = Self {
@@ -45,14 +56,48 @@ impl<'a> Fit<'a> {
             atoms: Vec::new(),
             ambient: [0.0; 3],
             bounce: [0.0; 3],
+            bounces: Bounces::All,
             residual: samples.target.clone(),
             weight: std::array::from_fn(|_| samples.weight.clone()),
             trust: vec![1.0; count],
             ones: vec![1.0; count],
-            bounced: gathered.bounce.each_ref().map(|bounce| pick(bounce, kept)),
+            bounced,
         };
         fit.refit();
         fit
+    }
+
+    /// What the sources give by themselves, channel by channel.
+    pub fn direct(&self) -> [Vec<f32>; 3] {
+        std::array::from_fn(|channel| {
+            let mut direct = vec![0.0; self.ones.len()];
+            self.atoms.iter().for_each(|atom| subtract(&mut direct, &atom.column, -atom.power[channel]));
+            direct
+        })
+    }
+
+    /// What samples receive: the bake, or the model where that says that a clipped one receives more.
+    pub fn total(&self) -> [Vec<f32>; 3] {
+        let samples = self.optics.samples;
+        std::array::from_fn(|channel| {
+            let target = samples.target[channel].iter().zip(&self.residual[channel]).zip(&samples.clipped);
+            target
+                .map(|((&bake, &left), &clipped)| if clipped { bake - left.min(0.0) } else { bake })
+                .collect()
+        })
+    }
+
+    /// Takes these bounces; the sources' powers follow, and with them what they reflect, so this is repeated.
+    pub fn set_bounces(&mut self, bounces: Bounces, gathered: &Gathered) {
+        self.bounces = bounces;
+        for _ in 0..3 {
+            let light = match bounces {
+                Bounces::First => self.direct(),
+                Bounces::All => self.total(),
+            };
+            self.bounced = gathered.bounce(self.optics.samples, &light);
+            self.refit();
+        }
     }
 
     /// The bake's own weighted square, which gains are measured by.

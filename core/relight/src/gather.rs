@@ -2,7 +2,8 @@
 //!
 //! Baked light E contains what surfaces reflect: E = direct + F(albedo x E), F being the operator that gathers over
 //! the hemisphere. E is known, so the second term needs no solution of anything: it is gathered once, by rays, and
-//! the direct light is what remains. A bake of fewer bounces holds less of it; how much is one more unknown.
+//! the direct light is what remains. A bake of one bounce holds F(albedo x direct) instead, which is known once the direct light
+//! about is.
 
 use crate::random::{cosine_direction, hash, spread};
 use crate::samples::Samples;
@@ -14,15 +15,42 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How many times more rays are traced where little sky is seen.
 const FINE: u32 = 6;
+const LEAST_FINE: u32 = 512;
 /// Samples of a cell that are looked at: patches may all lie in one place.
 const MOST_IN_CELL: u32 = 64;
 
-/// Light of hemispheres, one a sample.
+/// What the hemispheres of samples hold.
 pub(crate) struct Gathered {
-    /// Irradiance from a sky of radiance 1.
+    /// Irradiance from a sky of radiance 1, one a sample.
     pub sky: Vec<f32>,
-    /// Irradiance from the radiosity of all samples, channel by channel.
-    pub bounce: [Vec<f32>; 3],
+    /// It, or a sample near it, has seen the sky: a sun may shine on it.
+    pub near_sky: Vec<bool>,
+    /// The samples that rays met, sample by sample, and where those of each begin.
+    met: Vec<u32>,
+    first: Vec<u32>,
+    /// Rays of a sample.
+    rays: u32,
+}
+
+impl Gathered {
+    /// F(albedo x E): what samples receive from one another where they receive `irradiance`, channel by channel.
+    pub fn bounce(&self, samples: &Samples, irradiance: &[Vec<f32>; 3]) -> [Vec<f32>; 3] {
+        let radiosity = |i: u32| {
+            let i = i as usize;
+            samples.albedo[i] * Vec3::new(irradiance[0][i], irradiance[1][i], irradiance[2][i])
+        };
+        let mut bounced = [const { Vec::new() }; 3];
+        for (i, &first) in self.first.iter().enumerate() {
+            let end = self.first.get(i + 1).map_or(self.met.len(), |&next| next as usize);
+            let sum: Vec3 = self.met[first as usize..end].iter().map(|&i| radiosity(i)).sum();
+            // Density cosine / pi: irradiance is pi times the mean radiance, and radiance is radiosity / pi.
+            let mean = sum / self.rays.max(1) as f32;
+            for channel in 0..3 {
+                bounced[channel].push(mean[channel]);
+            }
+        }
+        bounced
+    }
 }
 
 /// Gathers by `rays` rays a sample; None where it was cancelled.
@@ -34,36 +62,54 @@ pub(crate) fn gather(
     cancel: &AtomicBool,
 ) -> Option<Gathered> {
     let near = Near::new(samples);
-    let mut gathered = Gathered { sky: Vec::new(), bounce: [Vec::new(), Vec::new(), Vec::new()] };
+    let mut gathered =
+        Gathered { sky: Vec::new(), near_sky: Vec::new(), met: Vec::new(), first: Vec::new(), rays };
+    let hemisphere = |i: usize, ray: u32| {
+        let (normal, turn) = (samples.normal[i], hash(seed ^ 0x6a7e, u64::from(samples.number[i])));
+        let origin = samples.position[i] + normal * world.offset();
+        (origin, cosine_direction(normal, spread(ray, turn)))
+    };
+    let mut skies = Vec::new();
     for i in 0..samples.len() {
         if cancel.load(Ordering::Relaxed) {
             return None;
         }
-        let (normal, turn) = (samples.normal[i], hash(seed ^ 0x6a7e, u64::from(samples.number[i])));
-        let origin = samples.position[i] + normal * world.offset();
-        let (mut sky, mut bounce, mut traced) = (0u32, Vec3::ZERO, 0);
-        while traced < rays || (traced < FINE * rays && uncertain(sky, traced)) {
-            let direction = cosine_direction(normal, spread(traced, turn));
-            traced += 1;
+        gathered.first.push(gathered.met.len() as u32);
+        let mut sky = 0u32;
+        for ray in 0..rays {
+            let (origin, direction) = hemisphere(i, ray);
             match world.first(origin, direction) {
                 Met::Sky => sky += 1,
-                Met::Surface(t) => bounce += near.radiosity(samples, origin + direction * t, direction),
+                Met::Surface(t) => {
+                    gathered.met.extend(near.sample(samples, origin + direction * t, direction));
+                }
                 Met::Nothing => {}
             }
         }
-        // Density cosine / pi: irradiance is pi times the mean radiance, and radiance is radiosity / pi.
-        let share = 1.0 / traced.max(1) as f32;
-        gathered.sky.push(sky as f32 * PI * share);
-        for channel in 0..3 {
-            gathered.bounce[channel].push(bounce[channel] * share);
+        skies.push(sky);
+    }
+    for (i, &sky) in skies.iter().enumerate() {
+        if cancel.load(Ordering::Relaxed) {
+            return None;
         }
+        let (mut seen, mut traced) = (sky, rays);
+        let near_sky = sees_sky_about(&skies, i);
+        if near_sky && sky < rays / 4 {
+            traced = (FINE * rays).max(LEAST_FINE);
+            let more = (rays..traced).map(|ray| hemisphere(i, ray));
+            seen += more.filter(|&(origin, direction)| world.sees_sky(origin, direction)).count() as u32;
+        }
+        gathered.near_sky.push(near_sky);
+        gathered.sky.push(seen as f32 * PI / traced.max(1) as f32);
     }
     Some(gathered)
 }
 
-/// The sky is seen through a gap that few rays find.
-fn uncertain(sky: u32, traced: u32) -> bool {
-    sky > 0 && sky < traced / 4
+/// Sample `i` or one next to it has seen the sky. Through a small gap few rays do; to go by its own alone would prefer samples
+/// that met it by chance.
+fn sees_sky_about(skies: &[u32], i: usize) -> bool {
+    let about = &skies[i.saturating_sub(8)..(i + 9).min(skies.len())];
+    about.iter().any(|&sky| sky > 0)
 }
 
 /// Samples by the cell they lie in.
@@ -92,10 +138,10 @@ impl Near {
         Self { cell, first, order: keyed.into_iter().map(|(_, i)| i).collect() }
     }
 
-    /// Albedo x irradiance at a point that was reached along `direction`, from the samples about it.
-    fn radiosity(&self, samples: &Samples, point: Vec3, direction: Vec3) -> Vec3 {
+    /// The nearest sample of the surface that was reached at `point` along `direction`.
+    fn sample(&self, samples: &Samples, point: Vec3, direction: Vec3) -> Option<u32> {
         let centre = cell_of(point, self.cell);
-        let (mut sum, mut weights) = (Vec3::ZERO, 0.0);
+        let mut nearest = (f32::INFINITY, None);
         for step in 0..27 {
             let key = centre.saturating_add(IVec3::new(step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1));
             let Some(&(first, end)) = self.first.get(&key) else {
@@ -103,18 +149,15 @@ impl Near {
             };
             let end = end.min(first + MOST_IN_CELL);
             for &i in &self.order[first as usize..end as usize] {
-                let i = i as usize;
-                let (offset, normal) = (point - samples.position[i], samples.normal[i]);
-                if normal.dot(direction) >= 0.0 || normal.dot(offset).abs() > 0.25 * self.cell {
-                    continue;
-                }
+                let (offset, normal) = (point - samples.position[i as usize], samples.normal[i as usize]);
+                let faces = normal.dot(direction) < 0.0 && normal.dot(offset).abs() < 0.25 * self.cell;
                 let squared = offset.length_squared();
-                let weight = 1.0 / (squared * squared + 1e-4 * self.cell.powi(4));
-                sum += samples.albedo[i] * samples.irradiance(i) * weight;
-                weights += weight;
+                if faces && squared < nearest.0 {
+                    nearest = (squared, Some(i));
+                }
             }
         }
-        if weights > 0.0 { sum / weights } else { Vec3::ZERO }
+        nearest.1
     }
 }
 

@@ -6,10 +6,10 @@
 
 use crate::candidates::{Candidates, Extent, candidates};
 use crate::column::{Optics, Panel};
-use crate::fit::{Atom, Fit};
+use crate::fit::{Atom, Bounces, Fit};
 use crate::gather::{Gathered, gather};
 use crate::reduce::{likeness, merge, prune};
-use crate::refine::{Trial, descend, search};
+use crate::refine::{Trial, aim, aim_sun, descend, search};
 use crate::report::report;
 use crate::samples::{Samples, pick};
 use crate::types::{Baked, FalloffModel, Found, Options, Source};
@@ -20,6 +20,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const GOOD: f32 = 0.05;
 /// A source explains at least this share of what the others leave.
 const LEAST_GAIN: f64 = 0.02;
+/// The least angle between suns, in radians.
+const SUNS_APART: f32 = 0.25;
 /// Sources that are added before all are fitted anew.
 const BATCH: usize = 6;
 /// Sources whose form factors are more alike than this (cosine) are not added at once.
@@ -53,26 +55,46 @@ fn recover_with(baked: &Baked, options: &Options, cancel: &AtomicBool) -> Option
     };
     let effort = Effort::of(options.rays);
     let gathered = gather(&world, &samples, effort.hemisphere, options.seed, cancel)?;
+    let bounced = gathered.bounce(&samples, &samples.target);
     let panels: Vec<Panel> = baked.emitters.iter().map(Panel::new).collect();
     let atoms = choose(
         baked,
         options,
         &effort,
-        Scene { world: &world, samples: &samples, panels: &panels, gathered: &gathered },
+        Scene { world: &world, samples: &samples, panels: &panels, gathered: &gathered, bounced: &bounced },
         cancel,
     )?;
 
-    let all: Vec<usize> = (0..samples.len()).collect();
     let optics = Optics {
         world: &world,
         samples: &samples,
         panels: &panels,
         sky: gathered.sky.clone(),
+        near_sky: gathered.near_sky.clone(),
+        sun_points: 4,
         area_rays: effort.area_rays,
         seed: options.seed,
     };
-    let mut fit = Fit::new(&optics, &gathered, &all);
-    settle(&mut fit, atoms, options, &effort, cancel)?;
+    let mut fit = Fit::new(&optics, bounced.clone());
+    for atom in atoms {
+        let column = optics.column(&atom.source);
+        fit.atoms.push(Atom { column, ..atom });
+    }
+    fit.refit();
+    for sweep in 0..effort.sweeps {
+        let last = sweep + 1 == effort.sweeps;
+        if last {
+            // Not sooner: what a source in a wrong place misses is no fault of the bake.
+            fit.distrust();
+        }
+        relocate(&mut fit, sweep, cancel)?;
+        choose_bounces(&mut fit, &gathered);
+        if !last {
+            let least = (f64::from(options.least_evidence) * fit.energy()).max(LEAST_GAIN * fit.objective());
+            merge(&mut fit, least, cancel)?;
+            prune(&mut fit, least);
+        }
+    }
     Some(report(baked, &samples, Some(&fit), world.rays()))
 }
 
@@ -83,6 +105,7 @@ struct Scene<'a> {
     samples: &'a Samples,
     panels: &'a [Panel],
     gathered: &'a Gathered,
+    bounced: &'a [Vec<f32>; 3],
 }
 
 /// How a number of rays is spent.
@@ -104,11 +127,11 @@ impl Effort {
         let scale = (rays as f64 / 8e6).sqrt().clamp(0.1, 3.0);
         let part = |full: f64| (full * scale) as usize;
         Self {
-            coarse: part(1024.0).max(256),
+            coarse: part(1024.0).max(512),
             hemisphere: (96.0 * scale).clamp(48.0, 192.0) as u32,
             area_rays: (16.0 * scale).clamp(4.0, 32.0) as u32,
-            extent: Extent { points: part(1400.0), suns: part(1000.0), emitters: part(256.0) },
-            sweeps: if scale < 0.5 { 2 } else { 4 },
+            extent: Extent { points: part(1400.0), suns: part(1000.0).max(700), emitters: part(256.0) },
+            sweeps: 4,
         }
     }
 }
@@ -127,11 +150,13 @@ fn choose(
         samples: &samples,
         panels: scene.panels,
         sky: pick(&scene.gathered.sky, &kept),
+        near_sky: pick(&scene.gathered.near_sky, &kept),
+        sun_points: 1,
         area_rays: effort.area_rays.div_ceil(2),
         seed: options.seed,
     };
     let candidates = candidates(&optics, baked, options.falloff, effort.extent, cancel)?;
-    let mut fit = Fit::new(&optics, scene.gathered, &kept);
+    let mut fit = Fit::new(&optics, scene.bounced.each_ref().map(|bounced| pick(bounced, &kept)));
     let energy = fit.energy();
     while fit.atoms.len() < options.max_sources {
         let objective = fit.objective();
@@ -169,7 +194,7 @@ fn add_batch(
         let candidate = &candidates.all[number];
         fit.gain(&candidate.column, &fit.residual).0 * f64::from(candidate.preference)
     };
-    let taken = |source: &Source| fit.atoms.iter().any(|atom| atom.source == *source);
+    let taken = |source: &Source| fit.atoms.iter().any(|atom| same(&atom.source, source));
     let mut ranked: Vec<(f64, usize)> = (0..candidates.all.len())
         .filter(|&number| !taken(&candidates.all[number].source))
         .map(|number| (score(number), number))
@@ -185,58 +210,56 @@ fn add_batch(
             break;
         }
         let candidate = &candidates.all[number];
-        let apart = |trial: &Trial| likeness(fit, &trial.column, &candidate.column) < ALIKE;
+        let apart = |trial: &Trial| {
+            likeness(fit, &trial.column, &candidate.column) < ALIKE && !same(&trial.source, &candidate.source)
+        };
         if trials.iter().all(apart) {
             let trial = Trial::new(fit, &fit.residual, candidate.source);
-            let (step, halvings) = match candidate.source {
-                Source::Sun { .. } => (0.06, 6),
-                _ => (0.5 * candidates.spacing, 3),
-            };
-            trials.push(search(fit, &fit.residual, trial, step, halvings));
+            trials.push(match candidate.source {
+                Source::Sun { .. } => aim_sun(fit, &fit.residual, trial, 0.15, 8),
+                _ => search(fit, &fit.residual, trial, 0.5 * candidates.spacing, 3),
+            });
         }
     }
+    trials.retain(|trial| !taken(&trial.source));
     let added = trials.len();
     fit.atoms.extend(trials.into_iter().map(Trial::into_atom));
     Some(added)
 }
 
-/// Fits the chosen sources to all samples: moves them, joins those that are one, drops those that are none.
-fn settle(
-    fit: &mut Fit,
-    atoms: Vec<Atom>,
-    options: &Options,
-    effort: &Effort,
-    cancel: &AtomicBool,
-) -> Option<()> {
-    for atom in atoms {
-        let column = fit.optics.column(&atom.source);
-        fit.atoms.push(Atom { column, ..atom });
+/// One source cannot stand beside the other: a sun's neighbours only make up for how its light ends.
+fn same(one: &Source, other: &Source) -> bool {
+    match (one, other) {
+        (Source::Sun { direction, .. }, Source::Sun { direction: away, .. }) => {
+            direction.dot(*away) > SUNS_APART.cos()
+        }
+        _ => one == other,
+    }
+}
+
+/// Moves all sources once.
+fn relocate(fit: &mut Fit, sweep: u32, cancel: &AtomicBool) -> Option<()> {
+    for number in 0..fit.atoms.len() {
+        if cancel.load(Ordering::Relaxed) {
+            return None;
+        }
+        if sweep % 2 == 0 {
+            // The finer samples see the edges of a sun's light better.
+            aim(fit, number, 0.02 / (1 << sweep) as f32, 4);
+        }
+        descend(fit, number, 4);
     }
     fit.refit();
-    for sweep in 0..effort.sweeps {
-        for number in 0..fit.atoms.len() {
-            if cancel.load(Ordering::Relaxed) {
-                return None;
-            }
-            aim(fit, number, sweep);
-            descend(fit, number, 4);
-        }
-        fit.refit();
-        let least = (f64::from(options.least_evidence) * fit.energy()).max(LEAST_GAIN * fit.objective());
-        merge(fit, least, cancel)?;
-        prune(fit, least);
-        fit.distrust();
-        fit.refit();
-    }
     Some(())
 }
 
-/// Suns are aimed anew: the finer samples see the edges of their light better.
-fn aim(fit: &mut Fit, number: usize, sweep: u32) {
-    if matches!(fit.atoms[number].source, Source::Sun { .. }) {
-        let residual = fit.residual_without(number);
-        let trial = Trial::new(fit, &residual, fit.atoms[number].source);
-        let best = search(fit, &residual, trial, 0.01 / (1 << sweep) as f32, 3);
-        fit.replace(number, best.into_atom());
+/// Takes the bounces that leave less.
+fn choose_bounces(fit: &mut Fit, gathered: &Gathered) {
+    fit.set_bounces(Bounces::First, gathered);
+    let first = fit.objective();
+    fit.set_bounces(Bounces::All, gathered);
+    eprintln!("bounces: once {first} ever {} of {}", fit.objective(), fit.energy());
+    if first < fit.objective() {
+        fit.set_bounces(Bounces::First, gathered);
     }
 }

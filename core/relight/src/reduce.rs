@@ -3,11 +3,12 @@
 use crate::fit::{Atom, Fit, triple};
 use crate::refine::descend;
 use crate::types::Source;
-use glam::Vec3;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Points whose form factors are more alike than this (cosine) may be one.
 const ONE: f64 = 0.7;
+/// What one may leave more than two: beside a shadow's edge, of which a patch has a part, two points always fit better.
+const SIMPLER: f64 = 1.25;
 /// Weak sources that are tried before a round of dropping ends.
 const MOST_TRIED: usize = 8;
 
@@ -71,7 +72,7 @@ fn middle(fit: &Fit, first: usize, second: usize) -> Option<Source> {
     };
     let sum = |atom: &Atom| atom.power.iter().sum::<f64>();
     let share = (sum(other) / (sum(one) + sum(other))) as f32;
-    let position: Vec3 = position.lerp(away, share);
+    let position = position.lerp(away, share);
     position.is_finite().then_some(Source::Point { position, radius, falloff })
 }
 
@@ -85,7 +86,7 @@ fn join(fit: &mut Fit, first: usize, second: usize, source: Source, least: f64) 
     fit.refit();
     descend(fit, first, 8);
     fit.refit();
-    if fit.objective() <= objective + least {
+    if fit.objective() <= SIMPLER * objective + least {
         return true;
     }
     fit.atoms[first] = former;

@@ -2,6 +2,7 @@
 
 use crate::column::{Optics, point_gradient};
 use crate::fit::{Atom, Fit};
+use crate::random::{hash, spread};
 use crate::types::{Falloff, Source};
 use glam::{Vec3, Vec4};
 
@@ -25,8 +26,8 @@ impl Trial {
     }
 }
 
-/// Looks about for a place that explains more, by steps that halve `halvings` times: for grids and for the edges of
-/// shadows, which have no gradient. `step` is a length for points, an angle for suns.
+/// Looks about a point light for a place that explains more, by steps that halve `halvings` times: from a grid's point it
+/// may be far.
 pub(crate) fn search(
     fit: &Fit,
     residual: &[Vec<f32>; 3],
@@ -60,13 +61,7 @@ fn neighbours(source: &Source, step: f32) -> Vec<Source> {
             let moved = moved.map(|way| Source::Point { position: position + way * step, radius, falloff });
             moved.chain(reaches(source)).collect()
         }
-        Source::Sun { direction, angular_radius } => {
-            let (tangent, bitangent) = direction.any_orthonormal_pair();
-            let ways = [tangent, -tangent, bitangent, -bitangent];
-            ways.map(|way| Source::Sun { direction: (direction + way * step).normalize(), angular_radius })
-                .to_vec()
-        }
-        Source::Area { .. } | Source::Sky => Vec::new(),
+        _ => Vec::new(),
     }
 }
 
@@ -77,6 +72,48 @@ fn reaches(source: &Source) -> Vec<Source> {
             .map(|f| Source::Point { position, radius, falloff: Falloff::Linear { reach: reach * f } })
             .to_vec(),
         _ => Vec::new(),
+    }
+}
+
+/// Directions that are tried in each cone.
+const CONE: u32 = 32;
+
+/// Looks about a sun for a direction that explains more, in cones that narrow `halvings` times from `angle` (radians) on.
+/// What tells a sun's direction is where its light ends, patch by patch: full of local optima, without a gradient.
+pub(crate) fn aim_sun(
+    fit: &Fit,
+    residual: &[Vec<f32>; 3],
+    mut best: Trial,
+    mut angle: f32,
+    halvings: u32,
+) -> Trial {
+    for narrowing in 0..halvings {
+        let Source::Sun { direction, angular_radius } = best.source else {
+            return best;
+        };
+        let (tangent, bitangent) = direction.any_orthonormal_pair();
+        for place in 0..CONE {
+            let square = spread(place, hash(fit.optics.seed, u64::from(narrowing)));
+            let (across, turn) = (angle * square.x.sqrt(), square.y * std::f32::consts::TAU);
+            let aside = tangent * turn.cos() + bitangent * turn.sin();
+            let direction = (direction + aside * across).normalize();
+            let trial = Trial::new(fit, residual, Source::Sun { direction, angular_radius });
+            if trial.gain > best.gain {
+                best = trial;
+            }
+        }
+        angle *= 0.6;
+    }
+    best
+}
+
+/// Aims atom `number` anew if it is a sun; see [`aim_sun`].
+pub(crate) fn aim(fit: &mut Fit, number: usize, angle: f32, halvings: u32) {
+    if matches!(fit.atoms[number].source, Source::Sun { .. }) {
+        let residual = fit.residual_without(number);
+        let trial = Trial::new(fit, &residual, fit.atoms[number].source);
+        let best = aim_sun(fit, &residual, trial, angle, halvings);
+        fit.replace(number, best.into_atom());
     }
 }
 

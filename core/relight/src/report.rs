@@ -1,6 +1,6 @@
 //! What the caller is told.
 
-use crate::fit::Fit;
+use crate::fit::{Bounces, Fit};
 use crate::samples::Samples;
 use crate::types::{Baked, Found, Light};
 use glam::Vec3;
@@ -31,6 +31,7 @@ pub(crate) fn report(baked: &Baked, samples: &Samples, fit: Option<&Fit>, rays: 
     if let Some(fit) = fit {
         found.ambient = vector(fit.ambient);
         found.bounce = vector(fit.bounce);
+        found.one_bounce = fit.bounces == Bounces::First;
         found.lights = lights(fit);
     }
     found

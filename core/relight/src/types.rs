@@ -128,9 +128,11 @@ pub struct Found {
     pub lights: Vec<Light>,
     /// Irradiance that all patches receive alike.
     pub ambient: Vec3,
-    /// How much of the light that patches reflect at one another is in the bake: 0 where it holds direct light
-    /// alone, 1 for all bounces with the given albedos.
+    /// How much of the light that patches reflect at one another is in the bake: 0 where it holds direct light alone, 1
+    /// where albedos are as given, less or more where they are guesses.
     pub bounce: Vec3,
+    /// That light was reflected once, not ever on.
+    pub one_bounce: bool,
     /// |model - bake| / |bake| over all patches and channels, area-weighted L2.
     pub residual: f32,
     /// The same of each patch, against its own irradiance or 2 % of the brightest tenth's, whichever is more; infinite where

@@ -180,7 +180,7 @@ impl Built {
                 radiance * (sum * area / (SIDE * SIDE) as f32)
             }
             Lamp::Sky(radiance) => {
-                const RAYS: u32 = 2048;
+                const RAYS: u32 = 512;
                 let seen = (0..RAYS)
                     .filter(|_| self.hit(at, cosine(normal, random), f32::INFINITY).is_none())
                     .count();

@@ -200,6 +200,16 @@ impl<'a> Fit<'a> {
         (0..3).map(|c| triple(&self.weight[c], &residual[c], &residual[c])).sum()
     }
 
+    /// The objective of the samples that these atoms light.
+    pub fn objective_about(&self, numbers: &[usize]) -> f64 {
+        let lit = |i: usize| numbers.iter().any(|&number| self.atoms[number].column[i] > 0.0);
+        let error = |i: usize| -> f64 {
+            let squared = |c: usize| f64::from(self.weight[c][i] * self.residual[c][i] * self.residual[c][i]);
+            (0..3).map(squared).sum()
+        };
+        (0..self.ones.len()).filter(|&i| lit(i)).map(error).sum()
+    }
+
     /// By how much the objective falls where a source of these form factors gets the powers that are best for
     /// `residual`, and those powers.
     pub fn gain(&self, column: &[f32], residual: &[Vec<f32>; 3]) -> (f64, [f64; 3]) {
@@ -248,7 +258,8 @@ impl<'a> Fit<'a> {
     }
 }
 
-fn subtract(left: &mut [f32], column: &[f32], power: f64) {
+/// Takes power x column away.
+pub(crate) fn subtract(left: &mut [f32], column: &[f32], power: f64) {
     if power == 0.0 {
         return;
     }

@@ -16,11 +16,13 @@
 
 mod candidates;
 mod column;
+mod descend;
 mod fit;
 mod gather;
 mod lambert;
 mod nnls;
 mod random;
+mod rays;
 mod recover;
 mod reduce;
 mod refine;

@@ -6,10 +6,11 @@
 
 use crate::candidates::{Candidates, Extent, candidates};
 use crate::column::{Optics, Panel};
+use crate::descend::{descend, groups};
 use crate::fit::{Atom, Bounces, Fit};
 use crate::gather::{Gathered, gather};
 use crate::reduce::{likeness, merge, prune};
-use crate::refine::{Trial, aim, aim_sun, descend, search};
+use crate::refine::{Trial, aim, aim_sun, search};
 use crate::report::report;
 use crate::samples::{Samples, pick};
 use crate::types::{Baked, FalloffModel, Found, Options, Source};
@@ -53,7 +54,7 @@ fn recover_with(baked: &Baked, options: &Options, cancel: &AtomicBool) -> Option
     let Some(world) = world else {
         return Some(report(baked, &samples, None, 0));
     };
-    let effort = Effort::of(options.rays);
+    let effort = Effort::of(options.rays, samples.len());
     let gathered = gather(&world, &samples, effort.hemisphere, options.seed, cancel)?;
     let bounced = gathered.bounce(&samples, &samples.target);
     let panels: Vec<Panel> = baked.emitters.iter().map(Panel::new).collect();
@@ -64,7 +65,6 @@ fn recover_with(baked: &Baked, options: &Options, cancel: &AtomicBool) -> Option
         Scene { world: &world, samples: &samples, panels: &panels, gathered: &gathered, bounced: &bounced },
         cancel,
     )?;
-
     let optics = Optics {
         world: &world,
         samples: &samples,
@@ -122,13 +122,13 @@ struct Effort {
 }
 
 impl Effort {
-    fn of(rays: u64) -> Self {
+    fn of(rays: u64, samples: usize) -> Self {
         // Candidates and the samples that judge them grow alike.
         let scale = (rays as f64 / 8e6).sqrt().clamp(0.1, 3.0);
         let part = |full: f64| (full * scale) as usize;
         Self {
             coarse: part(1024.0).max(512),
-            hemisphere: (96.0 * scale).clamp(48.0, 192.0) as u32,
+            hemisphere: (rays / (8 * samples.max(1) as u64)).clamp(48, 256) as u32,
             area_rays: (16.0 * scale).clamp(4.0, 32.0) as u32,
             extent: Extent { points: part(1400.0), suns: part(1000.0).max(700), emitters: part(256.0) },
             sweeps: 4,
@@ -168,8 +168,8 @@ fn choose(
         }
         fit.refit();
         for _ in 0..2 {
-            for number in 0..fit.atoms.len() {
-                descend(&mut fit, number, 3);
+            for group in groups(&fit) {
+                descend(&mut fit, &group, 3);
             }
             fit.refit();
         }
@@ -247,7 +247,12 @@ fn relocate(fit: &mut Fit, sweep: u32, cancel: &AtomicBool) -> Option<()> {
             // The finer samples see the edges of a sun's light better.
             aim(fit, number, 0.02 / (1 << sweep) as f32, 4);
         }
-        descend(fit, number, 4);
+    }
+    for group in groups(fit) {
+        if cancel.load(Ordering::Relaxed) {
+            return None;
+        }
+        descend(fit, &group, 5);
     }
     fit.refit();
     Some(())
@@ -258,7 +263,6 @@ fn choose_bounces(fit: &mut Fit, gathered: &Gathered) {
     fit.set_bounces(Bounces::First, gathered);
     let first = fit.objective();
     fit.set_bounces(Bounces::All, gathered);
-    eprintln!("bounces: once {first} ever {} of {}", fit.objective(), fit.energy());
     if first < fit.objective() {
         fit.set_bounces(Bounces::First, gathered);
     }

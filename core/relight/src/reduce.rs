@@ -1,14 +1,16 @@
 //! Fewer sources that explain as much.
 
+use crate::descend::descend;
 use crate::fit::{Atom, Fit, triple};
-use crate::refine::descend;
+
 use crate::types::Source;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Points whose form factors are more alike than this (cosine) may be one.
 const ONE: f64 = 0.7;
-/// What one may leave more than two: beside a shadow's edge, of which a patch has a part, two points always fit better.
-const SIMPLER: f64 = 1.25;
+/// One may leave more than two by this power of their likeness, as a share of what is left about them: beside a shadow's
+/// edge, of which a patch has a part, two always fit better, but what is nearly alike is more likely one.
+const SIMPLER: i32 = 12;
 /// Weak sources that are tried before a round of dropping ends.
 const MOST_TRIED: usize = 8;
 
@@ -51,9 +53,12 @@ pub(crate) fn merge(fit: &mut Fit, least: f64, cancel: &AtomicBool) -> Option<()
             if cancel.load(Ordering::Relaxed) {
                 return None;
             }
-            let alike = middle(fit, first, second)
-                .filter(|_| likeness(fit, &fit.atoms[first].column, &fit.atoms[second].column) > ONE);
-            let joined = alike.is_some_and(|source| join(fit, first, second, source, least));
+            let alike = likeness(fit, &fit.atoms[first].column, &fit.atoms[second].column);
+            let source = middle(fit, first, second).filter(|_| alike > ONE);
+            let joined = source.is_some_and(|source| {
+                let about = fit.objective_about(&[first, second]);
+                join(fit, first, second, source, least.max(about * alike.powi(SIMPLER)))
+            });
             second += usize::from(!joined);
         }
         first += 1;
@@ -84,9 +89,9 @@ fn join(fit: &mut Fit, first: usize, second: usize, source: Source, least: f64) 
     let power = std::array::from_fn(|c| fit.atoms[first].power[c] + old.power[c]);
     let former = std::mem::replace(&mut fit.atoms[first], Atom { source, column, power });
     fit.refit();
-    descend(fit, first, 8);
+    descend(fit, &[first], 8);
     fit.refit();
-    if fit.objective() <= SIMPLER * objective + least {
+    if fit.objective() <= objective + least {
         return true;
     }
     fit.atoms[first] = former;

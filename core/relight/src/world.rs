@@ -1,21 +1,17 @@
 //! Rays through the static world.
 
+use crate::rays::{Ray, Shapes};
 use crate::types::{Baked, Sky};
-use afterglow_bvh::{
-    Blas, IDENTITY, Instance, Quality, Query, Ray, Scene, Tlas, build_blas, build_tlas, trace,
-};
+use afterglow_bvh::{Quality, build_blas};
 use glam::Vec3;
 use std::cell::Cell;
 
-/// The one bottom level's address; any multiple of 16 would do.
-const ADDRESS: u64 = 16;
-
 /// The occluders and the sky's surfaces, ready for rays.
 pub(crate) struct World {
-    blas: Blas,
-    tlas: Option<Tlas>,
+    shapes: Shapes,
     /// Primitives from this number on are sky.
     first_sky: u32,
+    has_sky: bool,
     open: bool,
     /// Length of the diagonal of what lies in the world.
     pub size: f32,
@@ -41,19 +37,10 @@ impl World {
         let count = u32::try_from(positions.len() / 3).ok().filter(|&count| count < u32::MAX / 3)?;
         let indices: Vec<[u32; 3]> = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         let blas = build_blas(&positions, &indices, Quality::Good).ok()?;
-        let instance = Instance {
-            object_to_world: IDENTITY,
-            blas: ADDRESS,
-            bounds: blas.bounds,
-            id: 0,
-            mask: 1,
-            flags: 0,
-        };
-        let tlas = if blas.triangle_count == 0 { None } else { Some(build_tlas(&[instance]).ok()?) };
         Some(Self {
-            blas,
-            tlas,
+            shapes: Shapes::new(&blas),
             first_sky: baked.triangles.len() as u32,
+            has_sky: baked.sky == Sky::Open || !sky.is_empty(),
             open: baked.sky == Sky::Open,
             size,
             rays: Cell::new(0),
@@ -72,18 +59,18 @@ impl World {
 
     /// The sky can be seen somewhere.
     pub fn has_sky(&self) -> bool {
-        self.open || self.first_sky < self.blas.triangle_count + self.blas.skipped
+        self.has_sky
     }
 
     /// Nothing lies between the two points.
     pub fn visible(&self, from: Vec3, to: Vec3) -> bool {
-        let ray = Ray { origin: from, t_min: 0.0, direction: to - from, t_max: 0.9999 };
+        let ray = Ray { origin: from, direction: to - from, t_max: 0.9999 };
         self.trace(&ray, true).is_none()
     }
 
     /// What a ray of any length meets first.
     pub fn first(&self, origin: Vec3, direction: Vec3) -> Met {
-        let ray = Ray { origin, t_min: 0.0, direction, t_max: f32::INFINITY };
+        let ray = Ray { origin, direction, t_max: f32::INFINITY };
         match self.trace(&ray, false) {
             Some((_, primitive)) if primitive >= self.first_sky => Met::Sky,
             Some((t, _)) => Met::Surface(t),
@@ -95,7 +82,7 @@ impl World {
     /// The sky is seen along this direction.
     pub fn sees_sky(&self, origin: Vec3, direction: Vec3) -> bool {
         if self.open {
-            let ray = Ray { origin, t_min: 0.0, direction, t_max: f32::INFINITY };
+            let ray = Ray { origin, direction, t_max: f32::INFINITY };
             return self.trace(&ray, true).is_none();
         }
         matches!(self.first(origin, direction), Met::Sky)
@@ -103,9 +90,6 @@ impl World {
 
     fn trace(&self, ray: &Ray, any_hit: bool) -> Option<(f32, u32)> {
         self.rays.set(self.rays.get() + 1);
-        let tlas = &self.tlas.as_ref()?.words;
-        let scene = Scene { tlas, blas: &|_| Some(&self.blas.words) };
-        let hit = trace(&scene, ray, Query { mask: 1, any_hit }, &|_, _, _| true)?;
-        Some((hit.t, hit.primitive))
+        self.shapes.trace(ray, any_hit)
     }
 }

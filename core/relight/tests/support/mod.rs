@@ -241,13 +241,13 @@ impl Built {
         self.patches.iter().map(|patch| gather(patch, random)).collect()
     }
 
-    /// Relative noise, 8 bits between 0 and `white`, clipping there.
+    /// Relative noise, 8 bits between 0 and `white`; what is brighter is scaled down to it, keeping its hue.
     pub fn degrade(&mut self, noise: f32, white: f32) {
         let mut random = Random(5);
         for patch in &mut self.patches {
-            let noisy = patch.irradiance.to_array().map(|c| c * (1.0 + noise * random.normal()));
-            patch.irradiance =
-                Vec3::from(noisy.map(|c| (c / white * 255.0).round().clamp(0.0, 255.0) / 255.0 * white));
+            let noisy = Vec3::from(patch.irradiance.to_array().map(|c| c * (1.0 + noise * random.normal())));
+            let clipped = noisy / (noisy.max_element() / white).max(1.0);
+            patch.irradiance = (clipped / white * 255.0).round() / 255.0 * white;
         }
     }
 }

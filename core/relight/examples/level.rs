@@ -45,35 +45,6 @@ fn main() {
         found.lights.len(),
         found.bounce
     );
-    if std::env::var_os("VERBOSE").is_some() {
-        for lamp in &lamps {
-            let Lamp::Point(at, power) = *lamp else { continue };
-            let d = distance(lamp, &found.lights);
-            if d > 0.25 {
-                println!("missed {at:.2} {power:.2}: {d}");
-                for light in &found.lights {
-                    if let Source::Point { position, .. } = light.source
-                        && position.distance(at) < 5.0
-                    {
-                        println!(
-                            "   {:.2} away {position:.2} {:.3} {:.5}",
-                            position.distance(at),
-                            light.power,
-                            light.evidence
-                        );
-                    }
-                }
-                for other in &lamps {
-                    if let Lamp::Point(o, p) = *other
-                        && o != at
-                        && o.distance(at) < 5.0
-                    {
-                        println!("   other {o:.2} {p:.2}");
-                    }
-                }
-            }
-        }
-    }
     let mut distances: Vec<f32> = lamps.iter().map(|lamp| distance(lamp, &found.lights)).collect();
     distances.sort_by(f32::total_cmp);
     let within = |most: f32| distances.iter().filter(|&&d| d < most).count();
@@ -99,7 +70,7 @@ fn distance(lamp: &Lamp, lights: &[afterglow_relight::Light]) -> f32 {
 /// Rooms with doors between them, a crate and one or two lamps in each.
 fn level() -> (Built, Vec<Lamp>) {
     let mut built = Built::new();
-    built.tessellation = 4;
+    built.tessellation = 5;
     built.supersampling = 2;
     let mut lamps = Vec::new();
     let mut random = Random(3);

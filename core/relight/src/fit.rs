@@ -200,6 +200,15 @@ impl<'a> Fit<'a> {
         (0..3).map(|c| triple(&self.weight[c], &residual[c], &residual[c])).sum()
     }
 
+    /// How many samples tell of a source with these form factors: (sum s)^2 / sum s^2, where s is what it adds to the
+    /// square of the model.
+    pub fn witnesses(&self, column: &[f32]) -> f64 {
+        let weight = &self.optics.samples.weight;
+        let shares = column.iter().zip(weight).map(|(a, w)| f64::from(a * a * w));
+        let (sum, squares) = shares.fold((0.0, 0.0), |(sum, squares), s| (sum + s, squares + s * s));
+        if squares > 0.0 { sum * sum / squares } else { 0.0 }
+    }
+
     /// The objective of the samples that these atoms light.
     pub fn objective_about(&self, numbers: &[usize]) -> f64 {
         let lit = |i: usize| numbers.iter().any(|&number| self.atoms[number].column[i] > 0.0);

@@ -9,7 +9,7 @@ use crate::column::{Optics, Panel};
 use crate::descend::{descend, groups};
 use crate::fit::{Atom, Bounces, Fit};
 use crate::gather::{Gathered, gather};
-use crate::reduce::{likeness, merge, prune};
+use crate::reduce::{is_told, likeness, merge, prune};
 use crate::refine::{Trial, aim, aim_sun, search};
 use crate::report::report;
 use crate::samples::{Samples, pick};
@@ -221,7 +221,7 @@ fn add_batch(
             });
         }
     }
-    trials.retain(|trial| !taken(&trial.source));
+    trials.retain(|trial| !taken(&trial.source) && is_told(fit, &trial.column));
     let added = trials.len();
     fit.atoms.extend(trials.into_iter().map(Trial::into_atom));
     Some(added)
@@ -245,7 +245,7 @@ fn relocate(fit: &mut Fit, sweep: u32, cancel: &AtomicBool) -> Option<()> {
         }
         if sweep % 2 == 0 {
             // The finer samples see the edges of a sun's light better.
-            aim(fit, number, 0.02 / (1 << sweep) as f32, 4);
+            aim(fit, number, 0.04 / (1 << sweep) as f32, 6);
         }
     }
     for group in groups(fit) {

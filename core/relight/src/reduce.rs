@@ -11,6 +11,8 @@ const ONE: f64 = 0.7;
 /// One may leave more than two by this power of their likeness, as a share of what is left about them: beside a shadow's
 /// edge, of which a patch has a part, two always fit better, but what is nearly alike is more likely one.
 const SIMPLER: i32 = 12;
+/// Fewer samples can be fitted by any point near them.
+const LEAST_WITNESSES: f64 = 4.0;
 /// Weak sources that are tried before a round of dropping ends.
 const MOST_TRIED: usize = 8;
 
@@ -41,6 +43,11 @@ pub(crate) fn likeness(fit: &Fit, a: &[f32], b: &[f32]) -> f64 {
     let weight = &fit.optics.samples.weight;
     let squares = triple(weight, a, a) * triple(weight, b, b);
     if squares > 0.0 { triple(weight, a, b) / squares.sqrt() } else { 0.0 }
+}
+
+/// Enough samples tell of a source that it is not there for the error of one.
+pub(crate) fn is_told(fit: &Fit, column: &[f32]) -> bool {
+    fit.witnesses(column) >= LEAST_WITNESSES
 }
 
 /// Joins pairs of points where one, moved to its best place, leaves at most `least` more: a light that was first put in a wrong
@@ -102,7 +109,10 @@ fn join(fit: &mut Fit, first: usize, second: usize, source: Source, least: f64) 
 
 /// Drops, weakest first, the sources without which the objective grows by less than `least`.
 pub(crate) fn prune(fit: &mut Fit, least: f64) {
-    fit.atoms.retain(|atom| atom.power != [0.0; 3]);
+    let told: Vec<bool> = fit.atoms.iter().map(|atom| is_told(fit, &atom.column)).collect();
+    let mut told = told.into_iter();
+    fit.atoms.retain(|atom| told.next() == Some(true) && atom.power != [0.0; 3]);
+    fit.refit();
     loop {
         let limit = fit.objective() + least;
         let mut ranked: Vec<(f64, usize)> =

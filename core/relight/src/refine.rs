@@ -35,7 +35,7 @@ pub(crate) fn search(
     halvings: u32,
 ) -> Trial {
     for _ in 0..halvings {
-        // Downhill for as long as the step helps, but not for ever.
+        // Uphill for as long as the step helps, but not for ever.
         for _ in 0..4 {
             let before = best.gain;
             for moved in neighbours(&best.source, step) {

@@ -97,12 +97,12 @@ impl Optics<'_> {
     pub fn column(&self, source: &Source) -> Vec<f32> {
         match *source {
             Source::Point { position, radius, falloff } => {
-                self.each(|i| self.from_point(i, position, radius, falloff))
+                self.each(|i| self.point_at(i, position, radius, falloff))
             }
             Source::Sun { direction, angular_radius } => {
-                self.each(|i| self.from_sun(i, direction, angular_radius))
+                self.each(|i| self.sun_at(i, direction, angular_radius))
             }
-            Source::Area { emitter } => self.each(|i| self.from_panel(i, &self.panels[emitter])),
+            Source::Area { emitter } => self.each(|i| self.panel_at(i, &self.panels[emitter])),
             Source::Sky => self.sky.clone(),
         }
     }
@@ -116,7 +116,8 @@ impl Optics<'_> {
         self.samples.position[i] + self.samples.normal[i] * self.world.offset()
     }
 
-    fn from_point(&self, i: usize, position: Vec3, radius: f32, falloff: Falloff) -> f32 {
+    /// The factor of sample `i`.
+    fn point_at(&self, i: usize, position: Vec3, radius: f32, falloff: Falloff) -> f32 {
         let (normal, to) = (self.samples.normal[i], position - self.samples.position[i]);
         let mut factor = point_factor(normal, to, radius, falloff);
         if factor <= 0.0 || !self.world.visible(self.origin(i), position) {
@@ -139,7 +140,7 @@ impl Optics<'_> {
             .map(|(x, y)| (tangent * x + bitangent * y) * side)
     }
 
-    fn from_sun(&self, i: usize, direction: Vec3, angular_radius: f32) -> f32 {
+    fn sun_at(&self, i: usize, direction: Vec3, angular_radius: f32) -> f32 {
         if !self.near_sky[i] || self.samples.normal[i].dot(direction) < -angular_radius.sin() {
             return 0.0;
         }
@@ -165,7 +166,7 @@ impl Optics<'_> {
     }
 
     /// Exact without occluders; the share that is seen is estimated by rays to where most light comes from.
-    fn from_panel(&self, i: usize, panel: &Panel) -> f32 {
+    fn panel_at(&self, i: usize, panel: &Panel) -> f32 {
         let (position, normal) = (self.samples.position[i], self.samples.normal[i]);
         let mut sums = Vec::with_capacity(panel.triangles.len());
         let mut total = 0.0;

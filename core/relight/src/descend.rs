@@ -100,12 +100,11 @@ fn shone(fit: &Fit, residual: &[Vec<f32>; 3], sources: &[Source]) -> (Vec<Atom>,
 /// Where the linearised problem puts the points.
 fn proposal(fit: &Fit, residual: &[Vec<f32>; 3], group: &[usize], damping: f64) -> Option<Vec<Source>> {
     let mut system = System::new(group.len() * UNKNOWNS);
-    for i in 0..fit.optics.samples.len() {
-        for channel in 0..3 {
-            let weight = f64::from(fit.weight[channel][i]);
+    for (channel, residual) in residual.iter().enumerate() {
+        for (i, (&left, &weight)) in residual.iter().zip(&fit.weight[channel]).enumerate() {
             if weight > 0.0 {
                 let (row, model) = derivatives(fit, group, i, channel);
-                system.add(&row, f64::from(residual[channel][i]) - model, weight);
+                system.add(&row, f64::from(left) - model, f64::from(weight));
             }
         }
     }

@@ -14,6 +14,7 @@
 //! assert!(found.is_some_and(|found| found.lights.is_empty()));
 //! ```
 
+pub mod cache;
 mod candidates;
 mod column;
 mod descend;

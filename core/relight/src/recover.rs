@@ -19,6 +19,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Relative residual below which no other falloff is tried.
 const GOOD: f32 = 0.05;
+/// Most sources, whatever is asked for.
+const MOST_SOURCES: usize = 512;
+/// Most emitters that are looked at.
+const MOST_EMITTERS: usize = 512;
 /// A source explains at least this share of what the others leave.
 const LEAST_GAIN: f64 = 0.02;
 /// The least angle between suns, in radians.
@@ -57,7 +61,7 @@ fn recover_with(baked: &Baked, options: &Options, cancel: &AtomicBool) -> Option
     let effort = Effort::of(options.rays, samples.len());
     let gathered = gather(&world, &samples, effort.hemisphere, options.seed, cancel)?;
     let bounced = gathered.bounce(&samples, &samples.target);
-    let panels: Vec<Panel> = baked.emitters.iter().map(Panel::new).collect();
+    let panels: Vec<Panel> = baked.emitters.iter().take(MOST_EMITTERS).map(Panel::new).collect();
     let atoms = choose(
         baked,
         options,
@@ -92,7 +96,7 @@ fn recover_with(baked: &Baked, options: &Options, cancel: &AtomicBool) -> Option
         if !last {
             let least = (f64::from(options.least_evidence) * fit.energy()).max(LEAST_GAIN * fit.objective());
             merge(&mut fit, least, cancel)?;
-            prune(&mut fit, least);
+            prune(&mut fit, least, cancel)?;
         }
     }
     Some(report(baked, &samples, Some(&fit), world.rays()))
@@ -124,7 +128,7 @@ struct Effort {
 impl Effort {
     fn of(rays: u64, samples: usize) -> Self {
         // Candidates and the samples that judge them grow alike.
-        let scale = (rays as f64 / 8e6).sqrt().clamp(0.1, 3.0);
+        let scale = (rays as f64 / 8e6).sqrt().clamp(0.1, 2.0);
         let part = |full: f64| (full * scale) as usize;
         Self {
             coarse: part(1024.0).max(512),
@@ -158,10 +162,11 @@ fn choose(
     let candidates = candidates(&optics, baked, options.falloff, effort.extent, cancel)?;
     let mut fit = Fit::new(&optics, scene.bounced.each_ref().map(|bounced| pick(bounced, &kept)));
     let energy = fit.energy();
-    while fit.atoms.len() < options.max_sources {
+    let most = options.max_sources.min(MOST_SOURCES);
+    while fit.atoms.len() < most {
         let objective = fit.objective();
         let least = (f64::from(options.least_evidence) * energy).max(LEAST_GAIN * objective);
-        let room = options.max_sources - fit.atoms.len();
+        let room = most - fit.atoms.len();
         let added = add_batch(&mut fit, &candidates, room.min(BATCH), least, cancel)?;
         if added == 0 {
             break;
@@ -174,7 +179,7 @@ fn choose(
             fit.refit();
         }
         merge(&mut fit, least, cancel)?;
-        prune(&mut fit, least);
+        prune(&mut fit, least, cancel)?;
         if fit.objective() > 0.995 * objective {
             break;
         }
@@ -243,7 +248,7 @@ fn relocate(fit: &mut Fit, sweep: u32, cancel: &AtomicBool) -> Option<()> {
         if cancel.load(Ordering::Relaxed) {
             return None;
         }
-        if sweep % 2 == 0 {
+        if sweep.is_multiple_of(2) {
             // The finer samples see the edges of a sun's light better.
             aim(fit, number, 0.04 / (1 << sweep) as f32, 6);
         }

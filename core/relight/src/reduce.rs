@@ -107,13 +107,17 @@ fn join(fit: &mut Fit, first: usize, second: usize, source: Source, least: f64) 
     false
 }
 
-/// Drops, weakest first, the sources without which the objective grows by less than `least`.
-pub(crate) fn prune(fit: &mut Fit, least: f64) {
+/// Drops, weakest first, the sources without which the objective grows by less than `least`. None where it was
+/// cancelled.
+pub(crate) fn prune(fit: &mut Fit, least: f64, cancel: &AtomicBool) -> Option<()> {
     let told: Vec<bool> = fit.atoms.iter().map(|atom| is_told(fit, &atom.column)).collect();
     let mut told = told.into_iter();
     fit.atoms.retain(|atom| told.next() == Some(true) && atom.power != [0.0; 3]);
     fit.refit();
     loop {
+        if cancel.load(Ordering::Relaxed) {
+            return None;
+        }
         let limit = fit.objective() + least;
         let mut ranked: Vec<(f64, usize)> =
             (0..fit.atoms.len()).map(|number| (fit.objective_without(number), number)).collect();
@@ -121,7 +125,7 @@ pub(crate) fn prune(fit: &mut Fit, least: f64) {
         // Others may take over, which only a refit tells; it is worth that only for those that seem weak.
         let weak = ranked.iter().take(MOST_TRIED).filter(|&&(left, _)| left < limit + 64.0 * least);
         if !weak.map(|&(_, number)| number).any(|number| drop_if_idle(fit, number, limit)) {
-            return;
+            return Some(());
         }
     }
 }

@@ -81,8 +81,8 @@ impl Samples {
         let area: f64 = self.area.iter().map(|&a| f64::from(a)).sum();
         let mean = (total / area.max(f64::MIN_POSITIVE)) as f32;
         let mean_area = (area / self.len().max(1) as f64) as f32;
-        for i in 0..self.len() {
-            let expected = brightness[i] + 0.2 * mean;
+        for (i, brightness) in brightness.into_iter().enumerate() {
+            let expected = brightness + 0.2 * mean;
             // One huge patch is one observation still.
             let area = (self.area[i] / mean_area).min(16.0);
             self.weight[i] = if mean > 0.0 { area * mean / expected } else { 0.0 };

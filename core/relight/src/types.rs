@@ -50,7 +50,7 @@ pub struct Baked<'a> {
     pub triangles: &'a [[Vec3; 3]],
     /// The lit surfaces in pieces.
     pub patches: &'a [Patch],
-    /// Surfaces that may shine.
+    /// Surfaces that may shine, the most likely first: of very many (256 at the default effort) the first are looked at.
     pub emitters: &'a [Emitter],
     /// Where the sky is seen.
     pub sky: Sky<'a>,

@@ -93,3 +93,23 @@ impl World {
         self.shapes.trace(ray, any_hit)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_is_sky_is_seen_as_sky() {
+        let square = |z: f32| [Vec3::new(-9.0, -9.0, z), Vec3::new(9.0, -9.0, z), Vec3::new(0.0, 9.0, z)];
+        let (wall, sky) = ([square(1.0)], [square(-1.0)]);
+        let world =
+            |sky| World::new(&Baked { triangles: &wall, patches: &[], emitters: &[], sky }, 10.0).unwrap();
+        let seen = |world: &World| [Vec3::Z, Vec3::NEG_Z, Vec3::X].map(|way| world.sees_sky(Vec3::ZERO, way));
+        assert_eq!(seen(&world(Sky::Surfaces(&sky))), [false, true, false]);
+        assert_eq!(seen(&world(Sky::Open)), [false, true, true]);
+        assert_eq!(seen(&world(Sky::None)), [false; 3]);
+        assert!(matches!(world(Sky::None).first(Vec3::ZERO, Vec3::Z * 0.5), Met::Surface(t) if t == 2.0));
+        assert!(!world(Sky::None).visible(Vec3::ZERO, Vec3::Z * 2.0));
+        assert!(world(Sky::None).visible(Vec3::ZERO, Vec3::X * 2.0));
+    }
+}

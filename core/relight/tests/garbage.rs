@@ -61,7 +61,7 @@ fn check(found: &Found, patches: &[Patch]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(96) })]
 
     #[test]
     fn anything_has_an_answer_and_only_one(

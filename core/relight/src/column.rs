@@ -89,6 +89,8 @@ pub(crate) struct Optics<'a> {
     pub sun_points: usize,
     /// Rays to an emitter or to a sun with a width, from one sample.
     pub area_rays: u32,
+    /// A point that fewer samples tell of is none: any point near them would fit.
+    pub least_witnesses: f64,
     pub seed: u64,
 }
 

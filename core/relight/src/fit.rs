@@ -200,11 +200,10 @@ impl<'a> Fit<'a> {
         (0..3).map(|c| triple(&self.weight[c], &residual[c], &residual[c])).sum()
     }
 
-    /// How many samples tell of a source with these form factors: (sum s)^2 / sum s^2, where s is what it adds to the
-    /// square of the model.
+    /// How many samples tell of a source with these form factors: (sum s)^2 / sum s^2, where s is what it adds to each.
     pub fn witnesses(&self, column: &[f32]) -> f64 {
         let weight = &self.optics.samples.weight;
-        let shares = column.iter().zip(weight).map(|(a, w)| f64::from(a * a * w));
+        let shares = column.iter().zip(weight).map(|(a, w)| f64::from(a * w.sqrt()));
         let (sum, squares) = shares.fold((0.0, 0.0), |(sum, squares), s| (sum + s, squares + s * s));
         if squares > 0.0 { sum * sum / squares } else { 0.0 }
     }

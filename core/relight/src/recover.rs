@@ -25,6 +25,8 @@ const MOST_SOURCES: usize = 512;
 const MOST_EMITTERS: usize = 512;
 /// A source explains at least this share of what the others leave.
 const LEAST_GAIN: f64 = 0.02;
+/// Samples that must tell of a point.
+const LEAST_WITNESSES: f64 = 4.0;
 /// The least angle between suns, in radians.
 const SUNS_APART: f32 = 0.25;
 /// Sources that are added before all are fitted anew.
@@ -77,6 +79,7 @@ fn recover_with(baked: &Baked, options: &Options, cancel: &AtomicBool) -> Option
         near_sky: gathered.near_sky.clone(),
         sun_points: 4,
         area_rays: effort.area_rays,
+        least_witnesses: LEAST_WITNESSES,
         seed: options.seed,
     };
     let mut fit = Fit::new(&optics, bounced.clone());
@@ -131,7 +134,7 @@ impl Effort {
         let scale = (rays as f64 / 8e6).sqrt().clamp(0.1, 2.0);
         let part = |full: f64| (full * scale) as usize;
         Self {
-            coarse: part(1024.0).max(512),
+            coarse: part(1024.0).max(768),
             hemisphere: (rays / (8 * samples.max(1) as u64)).clamp(48, 256) as u32,
             area_rays: (16.0 * scale).clamp(4.0, 32.0) as u32,
             extent: Extent { points: part(1400.0), suns: part(1000.0).max(700), emitters: part(256.0) },
@@ -157,18 +160,19 @@ fn choose(
         near_sky: pick(&scene.gathered.near_sky, &kept),
         sun_points: 1,
         area_rays: effort.area_rays.div_ceil(2),
+        least_witnesses: LEAST_WITNESSES * kept.len() as f64 / scene.samples.len() as f64,
         seed: options.seed,
     };
     let candidates = candidates(&optics, baked, options.falloff, effort.extent, cancel)?;
     let mut fit = Fit::new(&optics, scene.bounced.each_ref().map(|bounced| pick(bounced, &kept)));
     let energy = fit.energy();
     let most = options.max_sources.min(MOST_SOURCES);
+    let mut refused = vec![false; candidates.all.len()];
     while fit.atoms.len() < most {
         let objective = fit.objective();
         let least = (f64::from(options.least_evidence) * energy).max(LEAST_GAIN * objective);
         let room = most - fit.atoms.len();
-        let added = add_batch(&mut fit, &candidates, room.min(BATCH), least, cancel)?;
-        if added == 0 {
+        if !add_batch(&mut fit, &candidates, &mut refused, room.min(BATCH), least, cancel)? {
             break;
         }
         fit.refit();
@@ -187,49 +191,61 @@ fn choose(
     Some(fit.atoms)
 }
 
-/// Adds the sources that explain most of the residual; returns how many.
+/// Adds the sources that explain most of the residual; false where there are none.
 fn add_batch(
     fit: &mut Fit,
     candidates: &Candidates,
+    refused: &mut [bool],
     most: usize,
     least: f64,
     cancel: &AtomicBool,
-) -> Option<usize> {
-    let score = |number: usize| {
-        let candidate = &candidates.all[number];
-        fit.gain(&candidate.column, &fit.residual).0 * f64::from(candidate.preference)
-    };
+) -> Option<bool> {
     let taken = |source: &Source| fit.atoms.iter().any(|atom| same(&atom.source, source));
-    let mut ranked: Vec<(f64, usize)> = (0..candidates.all.len())
-        .filter(|&number| !taken(&candidates.all[number].source))
-        .map(|number| (score(number), number))
-        .collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    let ranked = rank(fit, candidates, |number| refused[number] || taken(&candidates.all[number].source));
     let best = ranked.first().map_or(0.0, |&(gain, _)| gain);
     let mut trials: Vec<Trial> = Vec::new();
     for &(gain, number) in &ranked {
         if cancel.load(Ordering::Relaxed) {
             return None;
         }
-        if trials.len() == most || gain < least || gain < 0.1 * best {
+        if trials.len() == most || gain < least || (gain < 0.1 * best && !trials.is_empty()) {
             break;
         }
         let candidate = &candidates.all[number];
         let apart = |trial: &Trial| {
             likeness(fit, &trial.column, &candidate.column) < ALIKE && !same(&trial.source, &candidate.source)
         };
-        if trials.iter().all(apart) {
-            let trial = Trial::new(fit, &fit.residual, candidate.source);
-            trials.push(match candidate.source {
-                Source::Sun { .. } => aim_sun(fit, &fit.residual, trial, 0.15, 8),
-                _ => search(fit, &fit.residual, trial, 0.5 * candidates.spacing, 3),
-            });
+        if !trials.iter().all(apart) {
+            continue;
+        }
+        let trial = Trial::new(fit, &fit.residual, candidate.source);
+        let trial = match candidate.source {
+            Source::Sun { .. } => aim_sun(fit, &fit.residual, trial, 0.15, 8),
+            _ => search(fit, &fit.residual, trial, 0.5 * candidates.spacing, 3),
+        };
+        if taken(&trial.source) || !is_told(fit, &trial.source, &trial.column) {
+            refused[number] = true;
+        } else {
+            trials.push(trial);
         }
     }
-    trials.retain(|trial| !taken(&trial.source) && is_told(fit, &trial.column));
-    let added = trials.len();
+    let any = !trials.is_empty();
     fit.atoms.extend(trials.into_iter().map(Trial::into_atom));
-    Some(added)
+    Some(any)
+}
+
+/// Candidates by how much of the residual they explain, most first.
+fn rank(fit: &Fit, candidates: &Candidates, out: impl Fn(usize) -> bool) -> Vec<(f64, usize)> {
+    let score = |number: usize| {
+        let candidate = &candidates.all[number];
+        fit.gain(&candidate.column, &fit.residual).0 * f64::from(candidate.preference)
+    };
+    let mut ranked: Vec<(f64, usize)> = (0..candidates.all.len())
+        .filter(|&number| !out(number))
+        .map(|number| (score(number), number))
+        .collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    ranked
 }
 
 /// One source cannot stand beside the other: a sun's neighbours only make up for how its light ends.

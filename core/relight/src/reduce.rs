@@ -2,7 +2,6 @@
 
 use crate::descend::descend;
 use crate::fit::{Atom, Fit, triple};
-
 use crate::types::Source;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,8 +10,6 @@ const ONE: f64 = 0.7;
 /// One may leave more than two by this power of their likeness, as a share of what is left about them: beside a shadow's
 /// edge, of which a patch has a part, two always fit better, but what is nearly alike is more likely one.
 const SIMPLER: i32 = 12;
-/// Fewer samples can be fitted by any point near them.
-const LEAST_WITNESSES: f64 = 4.0;
 /// Weak sources that are tried before a round of dropping ends.
 const MOST_TRIED: usize = 8;
 
@@ -45,9 +42,9 @@ pub(crate) fn likeness(fit: &Fit, a: &[f32], b: &[f32]) -> f64 {
     if squares > 0.0 { triple(weight, a, b) / squares.sqrt() } else { 0.0 }
 }
 
-/// Enough samples tell of a source that it is not there for the error of one.
-pub(crate) fn is_told(fit: &Fit, column: &[f32]) -> bool {
-    fit.witnesses(column) >= LEAST_WITNESSES
+/// Enough samples tell of a point that it is not there for the error of one.
+pub(crate) fn is_told(fit: &Fit, source: &Source, column: &[f32]) -> bool {
+    !matches!(source, Source::Point { .. }) || fit.witnesses(column) >= fit.optics.least_witnesses
 }
 
 /// Joins pairs of points where one, moved to its best place, leaves at most `least` more: a light that was first put in a wrong
@@ -110,7 +107,7 @@ fn join(fit: &mut Fit, first: usize, second: usize, source: Source, least: f64) 
 /// Drops, weakest first, the sources without which the objective grows by less than `least`. None where it was
 /// cancelled.
 pub(crate) fn prune(fit: &mut Fit, least: f64, cancel: &AtomicBool) -> Option<()> {
-    let told: Vec<bool> = fit.atoms.iter().map(|atom| is_told(fit, &atom.column)).collect();
+    let told: Vec<bool> = fit.atoms.iter().map(|atom| is_told(fit, &atom.source, &atom.column)).collect();
     let mut told = told.into_iter();
     fit.atoms.retain(|atom| told.next() == Some(true) && atom.power != [0.0; 3]);
     fit.refit();

@@ -25,6 +25,8 @@ const MOST_SOURCES: usize = 512;
 const MOST_EMITTERS: usize = 512;
 /// A source explains at least this share of what the others leave.
 const LEAST_GAIN: f64 = 0.02;
+/// How often all sources are moved in the end.
+const SWEEPS: u32 = 4;
 /// Samples that must tell of a point.
 const LEAST_WITNESSES: f64 = 4.0;
 /// The least angle between suns, in radians.
@@ -88,8 +90,8 @@ fn recover_with(baked: &Baked, options: &Options, cancel: &AtomicBool) -> Option
         fit.atoms.push(Atom { column, ..atom });
     }
     fit.refit();
-    for sweep in 0..effort.sweeps {
-        let last = sweep + 1 == effort.sweeps;
+    for sweep in 0..SWEEPS {
+        let last = sweep + 1 == SWEEPS;
         if last {
             // Not sooner: what a source in a wrong place misses is no fault of the bake.
             fit.distrust();
@@ -124,8 +126,6 @@ struct Effort {
     /// Rays to an emitter.
     area_rays: u32,
     extent: Extent,
-    /// How often all sources are moved in the end.
-    sweeps: u32,
 }
 
 impl Effort {
@@ -138,7 +138,6 @@ impl Effort {
             hemisphere: (rays / (8 * samples.max(1) as u64)).clamp(48, 256) as u32,
             area_rays: (16.0 * scale).clamp(4.0, 32.0) as u32,
             extent: Extent { points: part(1400.0), suns: part(1000.0).max(700), emitters: part(256.0) },
-            sweeps: 4,
         }
     }
 }

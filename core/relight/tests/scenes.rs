@@ -8,6 +8,7 @@ use afterglow_relight::{Falloff, FalloffModel, Found, Light, Options, Sky, Sourc
 use glam::Vec3;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
+use support::level::{distance, level};
 use support::{Built, Lamp};
 
 const GREY: Vec3 = Vec3::splat(0.5);
@@ -192,6 +193,18 @@ fn lights_that_fade_linearly_are_found_as_such() {
         panic!("{:?}", found.lights[0]);
     };
     assert!((got / reach - 1.0).abs() < 0.05, "{got}");
+}
+
+#[test]
+fn nearly_all_lamps_of_a_level_are_found() {
+    let (mut built, lamps) = level(3, 1, 1.0);
+    built.bake(&lamps, 0, 0);
+    let options = Options { rays: 3_000_000, ..Options::default() };
+    let found = solve("level", &built, Sky::None, &options);
+    let near = lamps.iter().filter(|lamp| distance(lamp, &found.lights) < 0.3).count();
+    println!("  {near} of {} lamps, {} lights", lamps.len(), found.lights.len());
+    assert!(near * 10 >= lamps.len() * 8 && found.lights.len() <= lamps.len() + 2);
+    assert!(found.residual < 0.1 && found.explained > 0.9);
 }
 
 #[test]

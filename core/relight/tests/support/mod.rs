@@ -3,6 +3,8 @@
 
 #![allow(dead_code, reason = "each test and example uses a part")]
 
+pub mod level;
+
 use afterglow_relight::{Baked, Emitter, Patch, Sky};
 use glam::Vec3;
 use std::f32::consts::{PI, TAU};

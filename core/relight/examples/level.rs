@@ -1,4 +1,5 @@
 //! A level of rooms like an old game's, its lights baked and found again: seconds, residual, and how near they came.
+//! One thread searches; seconds are those of the clock.
 //!
 //! `cargo run --release -p afterglow-relight --example level [BOUNCES [RAYS]]`
 

@@ -8,7 +8,7 @@ use glam::Vec3;
 /// A piece of a lightmapped surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
-    /// Its middle, on the surface.
+    /// Its middle, on the surface; the irradiance is the mean over a square about it.
     pub position: Vec3,
     /// To the lit side; any length but 0.
     pub normal: Vec3,
@@ -133,7 +133,8 @@ pub struct Found {
     pub bounce: Vec3,
     /// That light was reflected once, not ever on.
     pub one_bounce: bool,
-    /// |model - bake| / |bake| over all patches and channels, area-weighted L2.
+    /// |model - bake| / |bake| over all patches and channels, area-weighted L2. More light than a clipped bake shows is no
+    /// error.
     pub residual: f32,
     /// The same of each patch, against its own irradiance or 2 % of the brightest tenth's, whichever is more; infinite where
     /// the patch was not usable (not finite, no area, no normal).
@@ -151,7 +152,9 @@ pub struct Options {
     pub seed: u64,
     /// Most sources.
     pub max_sources: usize,
-    /// About how many rays may be traced; what is searched shrinks to fit, from 2^16 rays on. Time is in proportion to it.
+    /// About how many rays may be traced: what is searched grows with it between 10^5 and 3 x 10^7, but a million are
+    /// traced in any case where there are many patches or a sky. Nearly all time goes into them: a level of 22,000 triangles and
+    /// 3,800 patches takes 5 to 6 million by default, which is about 5 s of one core.
     pub rays: u64,
     /// A patch with a channel at or above this was clipped: its irradiance is a lower bound.
     pub saturation: Option<f32>,

@@ -18,7 +18,8 @@ pub fn distance(lamp: &Lamp, lights: &[Light]) -> f32 {
     nearest.filter(|light| light.power.distance(power) < 0.25 * power.length()).map_or(f32::INFINITY, to)
 }
 
-/// A square of rooms with doors between them, a crate and one or two lamps in each.
+/// A square of rooms with doors between them, in each a crate, one or two lamps, and a panel that
+/// might shine but does not.
 pub fn level(rooms: usize, tessellation: u32, patch: f32) -> (Built, Vec<Lamp>) {
     let mut built = Built::new();
     built.tessellation = tessellation;
@@ -36,6 +37,8 @@ pub fn level(rooms: usize, tessellation: u32, patch: f32) -> (Built, Vec<Lamp>) 
         wall(&mut built, corner + x, [y, Vec3::NEG_X], room % rooms + 1 < rooms, shade, patch);
         wall(&mut built, corner, [x, Vec3::Y], room / rooms > 0, shade, patch);
         wall(&mut built, corner + y, [x, Vec3::NEG_Y], room / rooms + 1 < rooms, shade, patch);
+        let centre = corner + Vec3::new(3.5, 3.5, HEIGHT - 0.01);
+        built.emitter(centre, Vec3::Y, Vec3::X);
         let at = |random: &mut Random, low: f32, high: f32| low + (high - low) * random.unit();
         let place = corner + Vec3::new(at(&mut random, 1.0, 5.0), at(&mut random, 1.0, 5.0), 0.0);
         built.cuboid(place, place + Vec3::new(1.4, 1.4, 1.2), false, shade, patch, &[4]);

@@ -1,7 +1,8 @@
 //! A level of rooms like an old game's, its lights baked and found again: seconds, residual, and how near they came.
 //! One thread searches; seconds are those of the clock.
 //!
-//! `cargo run --release -p afterglow-relight --example level [BOUNCES [RAYS]]`
+//! `cargo run --release -p afterglow-relight --example level [BOUNCES [RAYS [SEED [WHITE]]]]`; with WHITE,
+//! the bake has 2 % of noise and 8 bits, and is clipped there.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
@@ -19,9 +20,14 @@ fn main() {
     let bounces = arguments.first().copied().unwrap_or(1) as u32;
     let mut options = Options::default();
     options.rays = arguments.get(1).copied().unwrap_or(options.rays);
+    options.seed = arguments.get(2).copied().unwrap_or(options.seed);
     let (mut built, lamps) = level(5, 5, PATCH);
     let start = Instant::now();
     built.bake(&lamps, bounces, 128);
+    if let Some(&white) = arguments.get(3) {
+        built.degrade(0.02, white as f32);
+        options.saturation = Some(white as f32);
+    }
     let triangles = built.triangles();
     println!(
         "{} triangles, {} patches, {} lamps, {bounces} bounces baked in {:.1} s",

@@ -7,7 +7,7 @@ use afterglow_gl::frame::{Draw, Frame};
 use glam::Vec3;
 use hashbrown::{HashMap, HashSet};
 
-use crate::content::{Content, corners};
+use crate::content::{Content, SAMPLES, corners};
 
 /// Stretches that are noted in a frame, at most.
 const MOST: usize = 1 << 14;
@@ -17,6 +17,8 @@ const MOST_KINDS: usize = 1 << 14;
 const MOST_COMPARED: usize = 64;
 /// Triangles up to which a stretch is a sprite: too simple to be known by its topology from afar.
 pub const SPRITE: u32 = 4;
+/// How far what was known goes when it begins to change, in its own extents.
+const AS_KNOWN: f32 = 0.25;
 /// Triangles from which on a stretch has a shape by which it is known.
 const SHAPE: u32 = 8;
 /// Frames for which what was animated is waited for.
@@ -31,6 +33,7 @@ const STREAK: u32 = 2;
 pub struct Former {
     centre: Vec3,
     extent: f32,
+    samples: [Vec3; SAMPLES],
     /// A triangle of it: as long as that is drawn, the stretch has not moved.
     first_key: u64,
     frame: u32,
@@ -59,17 +62,11 @@ impl Former {
 /// Topology, texture, number of triangles.
 type Kind = (u64, u64, u32);
 
-/// Whether lengths among corners have changed: then it was not moved as a whole.
-fn has_deformed(before: &[Vec3], now: &[Vec3]) -> bool {
-    let far = before.len() / 2;
-    let lengths = |corners: &[Vec3], i: usize| {
-        [corners[i].distance(corners[i + 1]), corners[i].distance(corners[(i + far) % corners.len()])]
-    };
-    let changes = |i: usize| {
-        let [a, b] = [lengths(before, i), lengths(now, i)];
-        a.iter().zip(&b).any(|(a, b)| (a - b).abs() > 1e-3 * a.max(*b))
-    };
-    before.len() == now.len() && (0..before.len() - before.len().min(1)).step_by(3).any(changes)
+/// Whether a shape has changed by more than its place.
+fn has_deformed(before: &[Vec3; SAMPLES], now: &[Vec3; SAMPLES]) -> bool {
+    let edges = |samples: &[Vec3; SAMPLES]| std::array::from_fn::<_, 7, _>(|i| samples[i + 1] - samples[0]);
+    let size = now.iter().map(|sample| sample.distance(now[0])).fold(0.0, f32::max);
+    edges(before).iter().zip(edges(now)).any(|(a, b)| a.distance(b) > 1e-3 * size)
 }
 
 /// The stretches of the frame before, and those of this one.
@@ -140,6 +137,8 @@ impl Formers {
     fn may_go(&self, former: &Former, content: &Content, alike: usize) -> bool {
         let away = self.frame.wrapping_sub(former.frame) as f32;
         let reach = match content.triangles {
+            // What was known may as well be out of sight now, and this something like it.
+            _ if former.corners.is_empty() => AS_KNOWN * former.extent,
             0..=SPRITE => 0.75 * former.extent.max(content.extent),
             _ if alike == 1 => 8.0 * former.extent,
             _ => 2.0 * former.extent,
@@ -157,8 +156,9 @@ impl Formers {
         now: u32,
     ) -> bool {
         let corners = corners(frame, draw);
-        let deforms = before
-            .is_some_and(|former| content.triangles >= SHAPE && has_deformed(&former.corners, &corners));
+        let deforms = before.is_some_and(|former| {
+            content.triangles >= SHAPE && has_deformed(&former.samples, &content.samples)
+        });
         // What changed its shape has not come into view as something else.
         let streak = before.map_or(0, |former| former.streak + if deforms { STREAK } else { 1 });
         if self.noted < MOST {
@@ -167,6 +167,7 @@ impl Formers {
             self.now.entry(kind).or_default().push(Former {
                 centre: content.centre,
                 extent: content.extent,
+                samples: content.samples,
                 first_key: content.keys.first().copied().unwrap_or(0),
                 frame: now,
                 streak,
@@ -186,6 +187,28 @@ impl Formers {
             self.kinds.insert((content.topology, texture, content.triangles));
         }
         counts
+    }
+
+    /// Notes a draw that is known: it may change in a later frame.
+    pub fn note_known(&mut self, content: &Content, texture: u64, object: u32, now: u32) {
+        let is_shape = content.triangles >= SHAPE;
+        let kind = (content.topology, texture, content.triangles);
+        if !is_shape || self.noted >= MOST {
+            return;
+        }
+        self.noted += 1;
+        self.now.entry(kind).or_default().push(Former {
+            centre: content.centre,
+            extent: content.extent,
+            samples: content.samples,
+            first_key: content.keys.first().copied().unwrap_or(0),
+            frame: now,
+            streak: 0,
+            is_taken: false,
+            rests: (0, content.positions),
+            object: Some(object),
+            corners: Vec::new(),
+        });
     }
 
     /// Says what the stretch that was noted last belongs to.

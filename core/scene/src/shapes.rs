@@ -125,8 +125,12 @@ impl Shapes {
             pieces.resize_with(pieces.len() + surveyed.number - draws, || None);
             draws = surveyed.number + 1;
             let Some(Operation::Draw(draw)) = frame.operations.get(surveyed.operation) else { continue };
+            let is_known = parts.is_empty();
             let stretches = self.stretches(frame, draw, &surveyed, parts, objects);
             if let [whole] = stretches.as_slice() {
+                if let (Known::Object(object), true) = (&whole.known, is_known) {
+                    self.formers.note_known(&surveyed.found.content, surveyed.texture, *object, self.frame);
+                }
                 pieces.push(Some(Piece {
                     content: surveyed.found.content,
                     texture: surveyed.texture,

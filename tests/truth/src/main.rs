@@ -1,7 +1,7 @@
 //! `afterglow-truth`: measures scene recovery on programs whose scenes are known.
 
-use std::fs;
-use std::io::{self, Write};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use afterglow_truth::measure::{Report, measure, measure_played, play_file, write_table, write_wrong};
@@ -27,6 +27,9 @@ struct Arguments {
     /// With --oracle: only list what it says the draws of this frame are
     #[arg(long, value_name = "FRAME", requires = "oracle")]
     draws: Option<usize>,
+    /// With --oracle: only paint what --draws lists, as a PPM file
+    #[arg(long, value_name = "FILE", requires = "draws")]
+    picture: Option<PathBuf>,
     /// With --oracle: only count its classes in each frame
     #[arg(long, requires = "oracle")]
     counts: bool,
@@ -89,7 +92,10 @@ fn ask(
     let judged = oracle.judge(&frames);
     if let Some(frame) = arguments.draws {
         let (drawn, judged) = frames.get(frame).zip(judged.get(frame)).context("no such frame")?;
-        oracle::write_draws(out, drawn, judged)?;
+        match &arguments.picture {
+            Some(path) => oracle::paint(&mut BufWriter::new(File::create(path)?), drawn, judged)?,
+            None => oracle::write_draws(out, drawn, judged)?,
+        }
     }
     if arguments.counts {
         oracle::write_counts(out, &frames, &judged)?;

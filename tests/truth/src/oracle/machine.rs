@@ -1,155 +1,14 @@
 //! A machine that executes steps and says of each draw what an oracle asks of it. Unlike the product, it keeps what the
 //! program multiplied apart: the stack of matrices, the lists that were called, the names that were bound.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use afterglow_api::constants::*;
 use glam::{DMat4, Vec3};
 
 use super::step::{Memory, Opacity, Step};
-use super::triangles;
-
-/// State that draws meet.
-#[derive(Debug, Clone, PartialEq)]
-pub struct State {
-    /// Capabilities that are enabled; those of texture units are in `units`.
-    pub enabled: BTreeSet<u32>,
-    /// Source and destination factor, wherever blending is enabled.
-    pub blend: (u32, u32),
-    /// glDepthFunc.
-    pub depth_func: u32,
-    /// glDepthMask.
-    pub depth_mask: bool,
-    /// glDepthRange.
-    pub depth_range: [f64; 2],
-    /// Whether colours are written.
-    pub color_mask: bool,
-    /// glStencilOp.
-    pub stencil_op: [u32; 3],
-    /// glViewport.
-    pub viewport: [i32; 4],
-    /// What alpha is compared with, wherever it is tested.
-    pub alpha_reference: f32,
-    /// Names of the textures of the first units, where they are enabled.
-    pub textures: [Option<u32>; 4],
-    bound: [u32; 4],
-    on: [BTreeSet<u32>; 4],
-    unit: usize,
-}
-
-impl State {
-    fn new() -> State {
-        State {
-            enabled: BTreeSet::new(),
-            blend: (GL_ONE, GL_ZERO),
-            depth_func: GL_LESS,
-            depth_mask: true,
-            depth_range: [0.0, 1.0],
-            color_mask: true,
-            stencil_op: [GL_KEEP; 3],
-            viewport: [0; 4],
-            alpha_reference: 0.0,
-            textures: [None; 4],
-            bound: [0; 4],
-            on: Default::default(),
-            unit: 0,
-        }
-    }
-
-    /// Whether a capability is enabled.
-    pub fn has(&self, capability: u32) -> bool {
-        self.enabled.contains(&capability)
-    }
-
-    /// The factors, where blending is enabled.
-    pub fn blending(&self) -> Option<(u32, u32)> {
-        self.has(GL_BLEND).then_some(self.blend)
-    }
-
-    fn set(&mut self, capability: u32, enabled: bool) {
-        let of_unit = matches!(
-            capability,
-            GL_TEXTURE_1D
-                | GL_TEXTURE_2D
-                | GL_TEXTURE_3D
-                | GL_TEXTURE_CUBE_MAP
-                | GL_TEXTURE_GEN_S
-                | GL_TEXTURE_GEN_T
-                | GL_TEXTURE_GEN_R
-        );
-        let set = match of_unit {
-            true => &mut self.on[self.unit],
-            false => &mut self.enabled,
-        };
-        if enabled {
-            set.insert(capability)
-        } else {
-            set.remove(&capability)
-        };
-        let is_on = |unit: usize| {
-            [GL_TEXTURE_2D, GL_TEXTURE_CUBE_MAP].iter().any(|target| self.on[unit].contains(target))
-        };
-        self.textures = [0, 1, 2, 3].map(|unit| is_on(unit).then_some(self.bound[unit]));
-    }
-}
-
-/// A draw.
-#[derive(Debug, Clone)]
-pub struct Drawn {
-    /// Draws of a frame count from 0.
-    pub index: usize,
-    /// What glBegin and the like take.
-    pub mode: u32,
-    /// Triangles that OpenGL makes of it.
-    pub triangles: u64,
-    /// MODELVIEW matrices, the current one last.
-    pub stack: Rc<[DMat4]>,
-    /// The matrix that MODELVIEW was last set to as a whole, before what was multiplied to it.
-    pub loaded: DMat4,
-    /// The current PROJECTION matrix.
-    pub projection: DMat4,
-    /// State that it meets.
-    pub state: Rc<State>,
-    /// How opaque the texture of unit 0 is.
-    pub opacity: Opacity,
-    /// Display lists that it is in, outermost first.
-    pub lists: Rc<[u32]>,
-    /// Buffer that holds its vertices, or 0.
-    pub buffer: u32,
-    /// Which pair of glLockArrays and glUnlockArrays of the frame it is in, or the one after which it is.
-    pub lock: u32,
-    /// How often depth was cleared in the frame before it.
-    pub clears: u32,
-    /// Hash of its positions in order.
-    pub content: u64,
-    /// Hash of the positions of each triangle, in any order of corners.
-    pub keys: Rc<[u64]>,
-    /// Least and most of the positions, object space.
-    pub bounds: [Vec3; 2],
-}
-
-impl Drawn {
-    /// The current MODELVIEW matrix.
-    pub fn modelview(&self) -> DMat4 {
-        self.stack.last().copied().unwrap_or(DMat4::IDENTITY)
-    }
-
-    /// Whether the projection makes far things small.
-    pub fn is_perspective(&self) -> bool {
-        self.projection.row(3).truncate().length() > 1e-9
-    }
-
-    /// The texture of unit 0.
-    pub fn texture(&self) -> u32 {
-        self.state.textures[0].unwrap_or(0)
-    }
-
-    /// Factors of blending, if it is on.
-    pub fn blending(&self) -> Option<(u32, u32)> {
-        self.state.blending()
-    }
-}
+use super::{Drawn, State, triangles};
 
 /// Everything that client state may point to.
 #[derive(Debug, Clone)]
@@ -191,7 +50,7 @@ pub struct Machine {
 impl Default for Machine {
     fn default() -> Machine {
         Machine {
-            state: State::new(),
+            state: State::default(),
             shared: None,
             saved: Vec::new(),
             client: Client {
@@ -364,34 +223,17 @@ impl Machine {
 
     fn change_state(&mut self, step: &Step) {
         self.shared = None;
-        let state = &mut self.state;
         match step {
-            Step::Capability(capability, enabled) => state.set(*capability, *enabled),
-            Step::Blend(source, destination) => state.blend = (*source, *destination),
-            Step::DepthFunc(compare) => state.depth_func = *compare,
-            Step::DepthMask(writes) => state.depth_mask = *writes,
-            Step::DepthRange(range) => state.depth_range = *range,
-            Step::ColorMask(writes) => state.color_mask = *writes,
-            Step::StencilOp(operations) => state.stencil_op = *operations,
-            Step::Viewport(rect) => state.viewport = *rect,
-            Step::Unit(unit) => state.unit = (*unit).min(3),
-            Step::Texture(target, name) if matches!(*target, GL_TEXTURE_2D | GL_TEXTURE_CUBE_MAP) => {
-                state.bound[state.unit] = *name;
-                if state.textures[state.unit].is_some() {
-                    state.textures[state.unit] = Some(*name);
-                }
-            }
-            Step::AlphaReference(reference) => state.alpha_reference = *reference,
             Step::Image(GL_TEXTURE_2D, opacity) => {
-                self.opacities.insert(state.bound[state.unit], *opacity);
+                self.opacities.insert(self.state.bound_texture(), *opacity);
             }
-            Step::PushAttrib(mask) => self.saved.push((*mask, state.clone())),
+            Step::PushAttrib(mask) => self.saved.push((*mask, self.state.clone())),
             Step::PopAttrib => {
                 if let Some((mask, saved)) = self.saved.pop() {
-                    restore(state, mask, &saved);
+                    self.state.restore(mask, &saved);
                 }
             }
-            _ => {}
+            _ => self.state.change(step),
         }
     }
 
@@ -509,45 +351,10 @@ impl Machine {
             buffer,
             lock: self.lock,
             clears: self.clears,
+            positions: positions.into(),
             content: triangles::content(positions),
             keys,
             bounds: triangles::bounds(positions),
         });
-    }
-}
-
-/// Puts back what glPushAttrib saved (specification 6.1.14), as far as it is kept.
-fn restore(state: &mut State, mask: u32, saved: &State) {
-    let groups: [(u32, &[u32]); 7] = [
-        (GL_COLOR_BUFFER_BIT, &[GL_BLEND, GL_ALPHA_TEST]),
-        (GL_DEPTH_BUFFER_BIT, &[GL_DEPTH_TEST]),
-        (GL_LIGHTING_BIT, &[GL_LIGHTING, GL_COLOR_MATERIAL]),
-        (GL_POLYGON_BIT, &[GL_CULL_FACE, GL_POLYGON_OFFSET_FILL]),
-        (GL_SCISSOR_BIT, &[GL_SCISSOR_TEST]),
-        (GL_STENCIL_BUFFER_BIT, &[GL_STENCIL_TEST]),
-        (GL_FOG_BIT, &[GL_FOG]),
-    ];
-    for capability in groups.iter().filter(|(bit, _)| mask & bit != 0).flat_map(|(_, of)| *of) {
-        state.set(*capability, saved.has(*capability));
-    }
-    if mask & GL_ENABLE_BIT != 0 {
-        state.enabled.clone_from(&saved.enabled);
-    }
-    if mask & GL_COLOR_BUFFER_BIT != 0 {
-        (state.blend, state.color_mask) = (saved.blend, saved.color_mask);
-        state.alpha_reference = saved.alpha_reference;
-    }
-    if mask & GL_DEPTH_BUFFER_BIT != 0 {
-        (state.depth_func, state.depth_mask) = (saved.depth_func, saved.depth_mask);
-    }
-    if mask & GL_VIEWPORT_BIT != 0 {
-        (state.viewport, state.depth_range) = (saved.viewport, saved.depth_range);
-    }
-    if mask & GL_TEXTURE_BIT != 0 {
-        (state.bound, state.unit) = (saved.bound, saved.unit);
-    }
-    if mask & (GL_TEXTURE_BIT | GL_ENABLE_BIT) != 0 {
-        state.on.clone_from(&saved.on);
-        state.textures = saved.textures;
     }
 }

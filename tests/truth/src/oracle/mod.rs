@@ -5,10 +5,15 @@
 //! multiplied its matrices from ([`Machine`] keeps view and model apart, where a frame has only their product). Where an
 //! oracle cannot know, it says [`Class::Undecided`], and those triangles are left out of the figures.
 
+mod bzflag;
+mod drawn;
 mod machine;
 mod minetest;
+mod neverball;
 mod openarena;
+mod picture;
 mod report;
+mod state;
 mod step;
 mod stormbaan;
 mod things;
@@ -22,9 +27,12 @@ use afterglow_scene::Class;
 use afterglow_trace::{Call, TraceReader};
 use anyhow::Context;
 
-use crate::truth::{FrameTruth, Label, TrueCamera, Truth};
-pub use machine::{Drawn, Machine, State};
+use crate::truth::{FrameTruth, Label, TrueCamera, Truth, UNNAMED};
+pub use drawn::Drawn;
+pub use machine::Machine;
+pub use picture::paint;
 pub use report::{write_counts, write_draws};
+pub use state::State;
 pub use step::Opacity;
 
 /// What an oracle says of a frame.
@@ -73,6 +81,18 @@ pub const ORACLES: &[Oracle] = &[
         extent: 1200.0,
         judge: minetest::judge,
     },
+    Oracle {
+        name: "neverball",
+        program: "Neverball: a level in buffers that is tilted, coins, a background about the eye",
+        extent: 25.0,
+        judge: neverball::judge,
+    },
+    Oracle {
+        name: "bzflag",
+        program: "BZFlag: a ground and mountains without depth, buildings, tanks in display lists, panels",
+        extent: 800.0,
+        judge: bzflag::judge,
+    },
 ];
 
 /// The oracle of that name.
@@ -85,7 +105,14 @@ pub fn named(name: &str) -> Option<&'static Oracle> {
 /// # Errors
 /// Where the file is no trace or is damaged.
 pub fn read(path: &Path) -> anyhow::Result<Vec<Vec<Drawn>>> {
-    let mut reader = TraceReader::open(path).with_context(|| path.display().to_string())?;
+    frames(TraceReader::open(path).with_context(|| path.display().to_string())?)
+}
+
+/// What is drawn in each frame of a trace that is open.
+///
+/// # Errors
+/// Where it is damaged.
+pub fn frames(mut reader: TraceReader) -> anyhow::Result<Vec<Vec<Drawn>>> {
     let (mut machine, mut frames) = (Machine::default(), Vec::new());
     // By signature.
     let mut commands: Vec<Option<CommandId>> = Vec::new();
@@ -105,7 +132,15 @@ pub fn read(path: &Path) -> anyhow::Result<Vec<Vec<Drawn>>> {
 impl Oracle {
     /// Judges all draws of a trace.
     pub fn judge(&self, frames: &[Vec<Drawn>]) -> Vec<Judged> {
-        (self.judge)(frames)
+        let mut judged = (self.judge)(frames);
+        // What the first frame has before its first clear is left from frames that were cut out of the trace.
+        for (first, drawn) in judged.iter_mut().zip(frames).take(1) {
+            let things = first.things.iter_mut().zip(drawn);
+            for (thing, _) in things.filter(|(_, drawn)| drawn.clears == 0) {
+                *thing = (Class::Undecided, UNNAMED);
+            }
+        }
+        judged
     }
 
     /// What is true of a trace.

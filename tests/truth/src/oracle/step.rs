@@ -50,6 +50,8 @@ pub enum Step {
     DepthRange([f64; 2]),
     /// glColorMask: whether any colour is written.
     ColorMask(bool),
+    /// glCullFace, glFrontFace.
+    Faces(u32),
     /// glStencilOp.
     StencilOp([u32; 3]),
     /// glViewport.
@@ -290,6 +292,7 @@ fn state(command: CommandId, a: &Args) -> Option<Step> {
         id::glDepthMask => Step::DepthMask(a.int(0)? != 0),
         id::glDepthRange => Step::DepthRange(a.vector(0)?),
         id::glColorMask => Step::ColorMask((0..3).any(|i| a.int(i).is_some_and(|on| on != 0))),
+        id::glCullFace | id::glFrontFace => Step::Faces(a.uint(0)?),
         id::glStencilOp => Step::StencilOp([a.uint(0)?, a.uint(1)?, a.uint(2)?]),
         id::glViewport => Step::Viewport([a.int(0)?, a.int(1)?, a.int(2)?, a.int(3)?]),
         id::glClear => Step::Clear(a.uint(0)?),

@@ -1,6 +1,6 @@
 //! Stormbaan Coureur: plib's scene graph loads the camera at the bottom of the matrix stack, then, a level deeper for each
 //! branch, the product of the camera and the branch's transform. What is drawn in perspective is the world, lit and
-//! solid, with two signs drawn by hand; what is drawn without depth in an orthographic projection is text.
+//! solid, with signs drawn by hand; what is drawn without depth in an orthographic projection is text.
 
 use afterglow_scene::Class;
 use glam::DMat4;
@@ -21,8 +21,9 @@ pub fn judge(frames: &[Vec<Drawn>]) -> Vec<Judged> {
         let world_from_eye = camera.map_or(DMat4::IDENTITY, |camera| camera.view.inverse());
         for drawn in drawn.iter().filter(|drawn| is_world(drawn)) {
             let model = world_from_eye * drawn.modelview();
-            let kinds = [drawn.content; 2];
-            sights.push(Sight::new([frame, drawn.index], kinds, model, drawn.bounds));
+            // Signs have a texture, and are turned to the camera.
+            let kind = if drawn.texture() == 0 { drawn.content } else { drawn.texture().into() };
+            sights.push(Sight::new([frame, drawn.index], [kind, drawn.content], model, drawn.bounds));
         }
     }
     let things = Things::follow(&sights, MOTION, 1);

@@ -180,3 +180,61 @@ impl Numbers {
         *self.known.entry(content).or_insert(next)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MOTION: Motion = Motion { least: 0.01, most: 2.0 };
+
+    /// Frames by the places and shapes of things of one kind.
+    fn follow(frames: &[&[(f64, u64)]]) -> Things {
+        let mut sights = Vec::new();
+        for (frame, places) in frames.iter().enumerate() {
+            for (draw, (x, content)) in places.iter().enumerate() {
+                let model = DMat4::from_translation(DVec3::X * *x);
+                sights.push(Sight::new([frame, draw], [1, *content], model, [Vec3::NEG_ONE, Vec3::ONE]));
+            }
+        }
+        Things::follow(&sights, MOTION, 1)
+    }
+
+    #[test]
+    fn things_keep_their_numbers_in_any_order() {
+        let things = follow(&[&[(0.0, 5), (50.0, 5)], &[(50.5, 5), (0.0, 5)], &[(51.0, 5)]]);
+        let object = |frame, draw| things.class(frame, draw).map(|(_, object)| object);
+        assert_eq!(object(0, 1), object(1, 0));
+        assert_eq!(object(0, 1), object(2, 0));
+        assert_eq!(object(0, 0), object(1, 1));
+        assert_ne!(object(0, 0), object(0, 1));
+        assert_eq!(things.class(1, 2), None);
+    }
+
+    #[test]
+    fn what_rests_stands_and_what_moves_later_is_undecided_before() {
+        let mut frames: Vec<Vec<(f64, u64)>> = vec![vec![(0.0, 5), (50.0, 5), (90.0, 5)]; 20];
+        for (frame, places) in frames.iter_mut().enumerate() {
+            places[1].0 += 0.3 * frame as f64;
+            places[2].0 += if frame < 12 { 0.0 } else { 1.0 };
+        }
+        let frames: Vec<&[(f64, u64)]> = frames.iter().map(Vec::as_slice).collect();
+        let things = follow(&frames);
+        let class = |frame, draw| things.class(frame, draw).map(|(class, _)| class);
+        assert_eq!(class(3, 0), Some(Class::Static));
+        assert_eq!(class(0, 1), Some(Class::Movable));
+        assert_eq!((class(11, 2), class(12, 2)), (Some(Class::Undecided), Some(Class::Movable)));
+    }
+
+    #[test]
+    fn shapes_that_change_are_dynamic_and_a_glimpse_is_nothing() {
+        let things = follow(&[&[(0.0, 5)], &[(0.0, 6)], &[(0.0, 6), (50.0, 7)]]);
+        assert_eq!(things.class(0, 0), Some((Class::Dynamic, 1)));
+        assert_eq!(things.class(2, 1), Some((Class::Undecided, 2)));
+    }
+
+    #[test]
+    fn things_that_may_be_exchanged_have_no_name() {
+        let things = follow(&[&[(0.0, 5), (1.0, 5)], &[(0.5, 5), (1.5, 5)]]);
+        assert!(things.class(1, 0).is_some_and(|(_, object)| object >= UNNAMED));
+    }
+}

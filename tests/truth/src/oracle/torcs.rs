@@ -14,8 +14,8 @@ use super::things::{Motion, Numbers, Sight, Things};
 use super::{Drawn, Judged, Opacity};
 use crate::truth::{TrueCamera, UNNAMED};
 
-/// Metres.
-const MOTION: Motion = Motion { least: 0.01, most: 60.0 };
+/// Metres. A car that stands rocks by less than a centimetre.
+const MOTION: Motion = Motion { least: 0.002, most: 60.0 };
 
 /// Objects that are no parts of track and cars.
 const CARS: u64 = 1_000_000;

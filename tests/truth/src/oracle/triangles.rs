@@ -4,10 +4,14 @@ use afterglow_api::constants::*;
 use glam::Vec3;
 
 /// Corners of each triangle, by index.
-fn corners(mode: u32, count: usize) -> Vec<[usize; 3]> {
+pub fn corners(mode: u32, count: usize) -> Vec<[usize; 3]> {
     match mode {
         GL_TRIANGLES => (0..count / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
-        GL_TRIANGLE_STRIP => (2..count).map(|i| [i - 2, i - 1, i]).collect(),
+        // Every other one is turned, so that all turn alike.
+        GL_TRIANGLE_STRIP => {
+            let turned = |i: usize| if i.is_multiple_of(2) { [i - 2, i - 1, i] } else { [i - 1, i - 2, i] };
+            (2..count).map(turned).collect()
+        }
         GL_TRIANGLE_FAN | GL_POLYGON => (2..count).map(|i| [0, i - 1, i]).collect(),
         GL_QUADS => {
             let quads = (0..count / 4).map(|i| 4 * i);

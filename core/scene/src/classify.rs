@@ -1,7 +1,7 @@
 //! The class of each draw of a frame, by its state and by what the world of the frame is.
 
 use afterglow_gl::frame::{CombineFunction, EnvMode, Format, Frame, Slot, StencilOp, Topology, UnitWords};
-use glam::{DMat3, DMat4, DVec3, Mat4};
+use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
 
 use crate::draws::{DepthUse, DrawFacts, TransformFacts};
 use crate::geometry::{has_varying_colors, mean_color};
@@ -64,7 +64,7 @@ pub fn classify<'a>(
         world,
         surfaces,
         has_mirrors: draws.iter().any(|facts| world.mirrors(facts, transforms)),
-        shown: shown(views, draws, pieces, tracker),
+        shown: shown(views, draws, pieces, transforms, tracker),
         track: None,
         base: None,
     };
@@ -79,15 +79,34 @@ pub fn classify<'a>(
 struct Shown {
     all: u64,
     of_world: u64,
+    /// Something reaches beyond the viewport.
+    overflows: bool,
 }
 
-fn shown(views: &Views, draws: &[DrawFacts], pieces: &[Option<Piece>], tracker: &Tracker) -> Vec<Shown> {
+fn shown(
+    views: &Views,
+    draws: &[DrawFacts],
+    pieces: &[Option<Piece>],
+    transforms: &[TransformFacts],
+    tracker: &Tracker,
+) -> Vec<Shown> {
     let mut shown = vec![Shown::default(); views.views.len()];
+    let overflows = |facts: &DrawFacts, piece: &Piece| {
+        let transform = &transforms[facts.transform];
+        let Some(perspective) = transform.perspective else { return false };
+        let clip = perspective.projection * transform.eye;
+        let is_outside = |sample: &Vec3| {
+            let at = clip * sample.as_dvec3().extend(1.0);
+            at.x.abs() > 1.2 * at.w || at.y.abs() > 1.2 * at.w
+        };
+        piece.content.samples.iter().any(is_outside)
+    };
     if views.views.len() > 1 {
         for (facts, piece) in draws.iter().zip(pieces) {
             let Some(piece) = piece else { continue };
             let view = &mut shown[facts.place.view];
             view.all += u64::from(facts.triangles);
+            view.overflows |= overflows(facts, piece);
             view.of_world += if tracker.stands_still(piece) { u64::from(facts.triangles) } else { 0 };
         }
     }
@@ -191,8 +210,10 @@ impl<'a> Classifier<'a> {
     fn is_icon(&self, facts: &DrawFacts) -> bool {
         let rect = self.views.views[facts.place.view].rect;
         let is_small = share_of_drawable(rect, self.frame.size) < SMALL;
-        let of_world =
-            self.shown.get(facts.place.view).is_some_and(|shown| OF_WORLD * shown.of_world > shown.all);
+        let of_world = self
+            .shown
+            .get(facts.place.view)
+            .is_some_and(|shown| OF_WORLD * shown.of_world > shown.all || shown.overflows);
         is_small && self.is_late(facts) && !of_world
     }
 

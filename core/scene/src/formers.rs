@@ -99,6 +99,11 @@ impl Formers {
         content.triangles > SPRITE && self.kinds.contains(&(content.topology, texture, content.triangles))
     }
 
+    /// Whether something of the same kind was there.
+    pub fn have(&self, content: &Content, texture: u64) -> bool {
+        self.before.contains_key(&(content.topology, texture, content.triangles))
+    }
+
     /// Finds what fresh triangles were before, the nearest first. `is_drawn` tells whether a triangle is in this frame.
     pub fn take(&mut self, fresh: Vec<(&Content, u64, &mut Option<Former>)>, is_drawn: impl Fn(u64) -> bool) {
         let mut pairs: Vec<(f32, usize, Kind, usize)> = Vec::new();

@@ -248,19 +248,27 @@ impl Shapes {
                 }
             };
             let whole = &surveyed.found.content;
+            let content = |first: u32, count: u32| match count == whole.triangles {
+                true => Some(whole.clone()),
+                false => Content::of(frame, draw, first, count).map(Arc::new),
+            };
             let fresh = |&(first, count): &(u32, u32)| {
                 let marks = &surveyed.marks[first as usize..(first + count) as usize];
                 marks.iter().any(Option::is_none).then(|| Fresh {
                     first,
                     count,
-                    content: match count == whole.triangles {
-                        true => Some(whole.clone()),
-                        false => Content::of(frame, draw, first, count).map(Arc::new),
-                    },
+                    content: content(first, count),
                     former: None,
                 })
             };
-            let segments = segments(frame, draw, &surveyed.marks);
+            let segments = segments(frame, draw, &surveyed.marks, |first, count| {
+                let is_fresh = |mark: &&Option<u32>| mark.is_none();
+                let marks = &surveyed.marks[first as usize..(first + count) as usize];
+                // What has mostly changed and is of a kind that was there is one thing, though some of it stayed.
+                2 * marks.iter().filter(is_fresh).count() > count as usize
+                    && content(first, count)
+                        .is_some_and(|content| self.formers.have(&content, surveyed.texture))
+            });
             parts.push(segments.iter().map(|segment| (segment.0, segment.1, fresh(segment))).collect());
         }
         let fresh = parts.iter_mut().zip(surveyed).flat_map(|(parts, surveyed)| {
@@ -393,25 +401,39 @@ fn majority(marks: &[Option<u32>]) -> Option<u32> {
     votes.into_iter().find(|(_, count)| *count == most).map(|(object, _)| object)
 }
 
-/// Cuts a draw at the program's own seams and where triangles are new on one side only.
-fn segments(frame: &Frame, draw: &Draw, marks: &[Option<u32>]) -> Vec<(u32, u32)> {
+/// Cuts a draw at the program's own seams and, unless what lies between is one thing, where triangles are new on one
+/// side only.
+fn segments(
+    frame: &Frame,
+    draw: &Draw,
+    marks: &[Option<u32>],
+    is_one: impl Fn(u32, u32) -> bool,
+) -> Vec<(u32, u32)> {
     let mut ends: Vec<u32> = Vec::new();
     if let VertexSource::Arena { first_index, .. } = draw.source {
         let from = frame.seams.partition_point(|&seam| seam <= first_index);
         let within = frame.seams[from..].iter().take_while(|&&seam| seam < first_index + draw.index_count);
         ends.extend(within.map(|seam| (seam - first_index) / 3));
     }
-    let changes = marks.windows(2).enumerate().filter(|(_, pair)| pair[0].is_none() != pair[1].is_none());
-    ends.extend(changes.map(|(i, _)| i as u32 + 1));
     ends.push(marks.len() as u32);
-    ends.sort_unstable();
     ends.dedup();
+    let mut segments = Vec::with_capacity(ends.len());
     let mut start = 0;
-    ends.into_iter()
-        .filter(|&end| end > 0)
-        .map(|end| (std::mem::replace(&mut start, end), end))
-        .map(|(s, e)| (s, e - s))
-        .collect()
+    for end in ends.into_iter().filter(|&end| end > 0) {
+        let first = std::mem::replace(&mut start, end);
+        let part = &marks[first as usize..end as usize];
+        let is_mixed = part.iter().any(Option::is_none) && part.iter().any(Option::is_some);
+        if !is_mixed || is_one(first, end - first) {
+            segments.push((first, end - first));
+            continue;
+        }
+        let mut from = first;
+        for part in part.chunk_by(|a, b| a.is_none() == b.is_none()) {
+            segments.push((from, part.len() as u32));
+            from += part.len() as u32;
+        }
+    }
+    segments
 }
 
 /// Adds triangles all of which are known.

@@ -183,7 +183,7 @@ impl Tracker {
         let Some(model) = object.model else { return true };
         let was_there = object.seen == self.frame.wrapping_sub(1);
         let moves = object.motion(self.frame) != Motion::Still;
-        away <= NEAR * extent
+        (away <= NEAR * extent && (was_there || moves))
             || (moves && was_there && away <= FAR * extent)
             || (was_there && sight.shows(model.transform_point3(centre)))
     }

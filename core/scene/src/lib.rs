@@ -7,6 +7,7 @@ mod classify;
 mod color;
 mod draws;
 mod geometry;
+mod hints;
 mod images;
 mod lights;
 mod matrix;

@@ -14,6 +14,9 @@ use super::geometry::Triangles;
 pub(crate) enum Lighting {
     /// By lights that the program has.
     Lights,
+    /// By lights that the program says, in a world that it does not light itself: every surface is lit by them unless its
+    /// colours are baked light.
+    Said,
     /// By a light that was made up: every surface is lit by it unless its colours are baked light.
     MadeUp,
     /// Its colours are its light.
@@ -25,6 +28,8 @@ impl Lighting {
         let is_programs = |origin| matches!(origin, LightOrigin::Gl(_));
         if scene.lights.is_empty() {
             Self::Baked
+        } else if scene.lights.iter().any(|light| matches!(light.origin, LightOrigin::Program(_))) {
+            Self::Said
         } else if scene.lights.iter().any(|light| is_programs(light.origin)) {
             Self::Lights
         } else {
@@ -37,8 +42,8 @@ impl Lighting {
         match self {
             Self::Lights if words.is_lit() => SurfaceKind::Lit,
             Self::Lights => SurfaceKind::Catcher,
-            Self::MadeUp if verdict.baked => SurfaceKind::Catcher,
-            Self::MadeUp => SurfaceKind::Lit,
+            Self::Said | Self::MadeUp if verdict.baked => SurfaceKind::Catcher,
+            Self::Said | Self::MadeUp => SurfaceKind::Lit,
             Self::Baked if verdict.class == Class::Static => SurfaceKind::Baked,
             Self::Baked => SurfaceKind::BakedMover,
         }

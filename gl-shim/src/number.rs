@@ -37,12 +37,6 @@ pub fn uint(value: impl Into<u32>) -> u32 {
     value.into()
 }
 
-/// GLuint64.
-#[inline(always)]
-pub fn ulong(value: u64) -> u64 {
-    value
-}
-
 /// GLint and smaller ones.
 #[inline(always)]
 pub fn int(value: impl Into<i32>) -> i32 {

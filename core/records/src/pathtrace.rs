@@ -39,6 +39,14 @@ shared_struct! {
         pub blend: u32,
         /// The instance mask of rays that start here.
         pub ray_mask: u32,
+        /// Radiance that the program says it gives off, linear RGB.
+        pub emission: [f32; 3],
+        /// Perceptual roughness that the program says; below 0 where it says none.
+        pub roughness: f32,
+        /// Metallic that it says, with the roughness.
+        pub metallic: f32,
+        /// Unused.
+        pub padding: u32,
     }
 }
 

@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 192 bytes
+struct SurfaceDraw { // 216 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -21,6 +21,10 @@ struct SurfaceDraw { // 192 bytes
     uint next_layer;
     uint blend;
     uint ray_mask;
+    vec3 emission;
+    float roughness;
+    float metallic;
+    uint padding;
 };
 #endif
 

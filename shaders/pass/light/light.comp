@@ -83,6 +83,7 @@ vec3 met_light(ViewRecord view, Hit hit, vec3 direction, out Place place) {
     if (draw.it.kind != SURFACE_LIT) {
         return color + emission;
     }
+    emission += draw.it.emission;
     place.weight = color;
     return color * view.ambient + emission;
 }

@@ -10,6 +10,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "fixed/fog.glsl"
+#include "pathtrace/color.glsl"
 #include "pathtrace/surface.glsl"
 #include "pathtrace/vertices.glsl"
 #include "ray.glsl"
@@ -90,6 +91,20 @@ uint byte_of(float value) {
     return uint(clamp(value, 0.0, 1.0) * 255.0 + 0.5);
 }
 
+// Specular colour and shininess of a material that the program says (`albedo` is linear). The highlight is that of
+// OpenGL's lighting, made as wide and as bright as a rough surface's (Blinn's exponent by the roughness squared, Walter
+// and others, Microfacet Models for Refraction, 2007; normalized as in Akenine-Moeller and others, Real-Time Rendering,
+// section 9.8).
+uint said_highlight(vec3 albedo, float roughness, float metallic) {
+    float alpha = max(roughness * roughness, 0.01);
+    float exponent = max(2.0 / (alpha * alpha) - 2.0, 0.0);
+    // Light is found with the falloff in sRGB, as OpenGL has it, where 1 / 2.2 of an exponent falls as far.
+    float shininess = min(exponent / 2.2, 128.0);
+    vec3 facing = mix(vec3(0.04), albedo, metallic);
+    vec3 strength = facing * (2.2 * shininess + 8.0) / 8.0;
+    return pack_color(srgb_from_linear(clamp(strength, 0.0, 1.0)), byte_of(shininess / 128.0));
+}
+
 SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint triangle) {
     DrawReference draw = surface_draw(view, draw_index);
     GlobalState state = global_state(draw);
@@ -123,6 +138,12 @@ SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint tr
         texel.specular = pack_color(clamp(specular, 0.0, 1.0), byte_of(material.shininess / 128.0));
         emission = clamp(material.emission.rgb, 0.0, 1.0) * albedo;
         albedo *= clamp(material.diffuse.rgb, 0.0, 1.0);
+    }
+    if (draw.it.kind == SURFACE_LIT) {
+        if (draw.it.roughness >= 0.0) {
+            texel.specular = said_highlight(linear_from_srgb(albedo), draw.it.roughness, draw.it.metallic);
+        }
+        emission = srgb_from_linear(min(linear_from_srgb(emission) + draw.it.emission, 1.0));
     }
     texel.albedo = pack_color(albedo, byte_of(fog));
     texel.emission = pack_color(emission, draw.it.kind | draw.it.ray_mask << 4);

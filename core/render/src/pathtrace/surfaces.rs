@@ -91,6 +91,8 @@ pub(crate) fn surface_draw(
     words.global.set_lighting(words.is_lit().into());
     let words: &[u32] = bytemuck::cast_slice(std::slice::from_ref(&words));
     let record = located.record;
+    let material = frame.hint(draw).map(|hint| hint.material).unwrap_or_default();
+    let [roughness, metallic] = material.roughness_metallic.unwrap_or([-1.0, 0.0]);
     SurfaceDraw {
         vertices: record.vertices,
         indices: located.indices,
@@ -108,6 +110,10 @@ pub(crate) fn surface_draw(
         next_layer: number,
         blend: blend_word(fixed).0[0],
         ray_mask,
+        emission: material.emission.unwrap_or_default(),
+        roughness,
+        metallic,
+        padding: 0,
     }
 }
 

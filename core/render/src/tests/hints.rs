@@ -1,0 +1,147 @@
+//! What a program says of its scene, traced: its lights shine, and its materials show. Rasterized, it is as if nothing
+//! had been said.
+
+use afterglow_api::constants::*;
+use afterglow_gl::Context;
+use afterglow_scene::{LightOrigin, TriangleCounts};
+
+use super::pathtrace::{OPEN, SHADOW, SIZE, Stage, slab};
+use crate::Mode;
+use crate::testing::assert_valid;
+
+/// A floor and a slab over it, unlit, as the program's calls between say of what.
+#[derive(Default)]
+struct Said<'a> {
+    frame: Option<&'a dyn Fn(&mut Context)>,
+    floor: Option<&'a dyn Fn(&mut Context)>,
+    slab: Option<&'a dyn Fn(&mut Context)>,
+}
+
+fn say(gl: &mut Context, what: Option<&dyn Fn(&mut Context)>) {
+    gl.scene_defaults();
+    if let Some(what) = what {
+        what(gl);
+    }
+}
+
+fn draw(stage: &mut Stage, said: &Said) {
+    let gl = &mut stage.gl;
+    gl.clear_color(0.0, 0.0, 0.0, 1.0);
+    gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.matrix_mode(GL_PROJECTION);
+    gl.load_identity();
+    gl.frustum(-0.8, 0.8, -0.6, 0.6, 1.0, 50.0);
+    gl.matrix_mode(GL_MODELVIEW);
+    gl.load_identity();
+    gl.translate(0.0, -0.5, -6.0);
+    gl.rotate(35.0, 1.0, 0.0, 0.0);
+    gl.enable(GL_DEPTH_TEST);
+    gl.color([0.5, 0.5, 0.5, 1.0]);
+    say(gl, said.frame);
+    say(gl, said.floor);
+    slab(gl, 4.0);
+    gl.translate(0.0, 1.5, 0.0);
+    say(gl, said.slab);
+    slab(gl, 0.8);
+    gl.swap_buffers();
+    assert_eq!(gl.get_error(), GL_NO_ERROR);
+}
+
+fn traced(said: &Said) -> Stage {
+    let mut stage = Stage::new(Mode::Pathtrace, |options| options.spp = 8);
+    draw(&mut stage, said);
+    assert_valid();
+    stage
+}
+
+/// A light over the slab, and one so weak that it only shows that lights are said.
+fn lamp_at(gl: &mut Context, position: [f32; 3]) {
+    gl.scene_view();
+    gl.scene_point_light(1, position, [60.0; 3], 0.05);
+    gl.scene_sky(0.02, 0.02, 0.02);
+}
+
+fn triangles(stage: &Stage) -> TriangleCounts {
+    stage.renderer.lock().unwrap().last_report().scene.clone().unwrap().triangles
+}
+
+#[test]
+fn lights_that_are_said_shine() {
+    let ratio = |stage: &Stage| f64::from(stage.brightness(SHADOW)) / f64::from(stage.brightness(OPEN));
+    let over = traced(&Said { frame: Some(&|gl| lamp_at(gl, [0.0, 5.0, 0.0])), ..Said::default() });
+    assert!(ratio(&over) < 0.7, "the slab shadows the floor: {}", ratio(&over));
+    let aside = traced(&Said { frame: Some(&|gl| lamp_at(gl, [8.0, 5.0, 0.0])), ..Said::default() });
+    assert!(aside.brightness(SHADOW) > over.brightness(SHADOW) + 30);
+    let lights = over.renderer.lock().unwrap().last_report().scene.clone().unwrap().lights;
+    assert_eq!(lights.iter().map(|light| light.origin).collect::<Vec<_>>(), [LightOrigin::Program(1)]);
+}
+
+#[test]
+fn what_gives_off_light_is_bright_and_lights_the_floor() {
+    let frame = |gl: &mut Context| lamp_at(gl, [0.0, 5.0, 0.0]);
+    let dark = traced(&Said { frame: Some(&frame), ..Said::default() });
+    let glow = |gl: &mut Context| gl.scene_emission(0.0, 8.0, 0.0);
+    let glowing = traced(&Said { frame: Some(&frame), slab: Some(&glow), ..Said::default() });
+    // Green over red: how bright is left to exposure.
+    let tint = |stage: &Stage, [x, y]: [u32; 2]| {
+        let picture = stage.picture();
+        let pixel = ((y * SIZE.0 + x) * 4) as usize;
+        f64::from(picture[pixel + 1]) / f64::from(picture[pixel].max(1))
+    };
+    assert!(tint(&dark, SHADOW) < 1.05, "{}", tint(&dark, SHADOW));
+    assert!(tint(&glowing, SHADOW) > 1.3, "{}", tint(&glowing, SHADOW));
+    let slab_pixel = [48, 22];
+    assert!(tint(&glowing, slab_pixel) > 1.5, "{}", tint(&glowing, slab_pixel));
+}
+
+#[test]
+fn a_smooth_floor_has_a_highlight_and_a_metallic_one_a_brighter_one() {
+    let frame = |gl: &mut Context| {
+        gl.scene_view();
+        gl.scene_directional_light(1, [0.0, -1.0, -1.0], [3.0; 3], 0.5);
+        gl.scene_sky(0.1, 0.1, 0.1);
+    };
+    // Brightest over mean of a row of the floor, whatever the exposure.
+    let peak = |roughness: f32, metallic: f32| {
+        let floor = |gl: &mut Context| gl.scene_material(roughness, metallic);
+        let picture = traced(&Said { frame: Some(&frame), floor: Some(&floor), ..Said::default() }).picture();
+        let row = picture.chunks(SIZE.0 as usize * 4).nth(60).unwrap();
+        let greens: Vec<f64> = row.chunks(4).map(|pixel| f64::from(pixel[1])).collect();
+        greens.iter().copied().fold(0.0, f64::max) - greens.iter().copied().fold(255.0, f64::min)
+    };
+    let (rough, smooth, metal) = (peak(1.0, 0.0), peak(0.5, 0.0), peak(0.5, 1.0));
+    assert!(smooth > rough + 5.0 && metal > smooth + 5.0, "{rough} {smooth} {metal}");
+}
+
+#[test]
+fn classes_that_are_said_are_those_that_are_reported() {
+    let class = |gl: &mut Context| gl.scene_class(GL_SCENE_DYNAMIC_AFTERGLOW);
+    let stage = traced(&Said { slab: Some(&class), ..Said::default() });
+    assert_eq!(triangles(&stage), TriangleCounts { r#static: 2, dynamic: 2, ..TriangleCounts::default() });
+}
+
+#[test]
+fn a_cut_forgets_what_was_gathered() {
+    let mut stage = Stage::new(Mode::Pathtrace, |options| options.accumulate = true);
+    let samples = |stage: &Stage| stage.renderer.lock().unwrap().last_report().traced.unwrap().samples;
+    draw(&mut stage, &Said::default());
+    draw(&mut stage, &Said::default());
+    assert_eq!(samples(&stage), 8);
+    draw(&mut stage, &Said { frame: Some(&|gl| gl.scene_cut()), ..Said::default() });
+    assert_eq!(samples(&stage), 4);
+}
+
+#[test]
+fn rasterized_it_is_as_if_nothing_were_said() {
+    let picture = |said: &Said| {
+        let mut stage = Stage::new(Mode::Raster, |_| {});
+        draw(&mut stage, said);
+        stage.picture()
+    };
+    let floor = |gl: &mut Context| {
+        gl.scene_class(GL_SCENE_DROPPED_AFTERGLOW);
+        gl.scene_emission(9.0, 9.0, 9.0);
+    };
+    let said = Said { frame: Some(&|gl| lamp_at(gl, [0.0; 3])), floor: Some(&floor), slab: None };
+    assert!(picture(&said) == picture(&Said::default()));
+}

@@ -42,7 +42,6 @@ impl ImageFacts {
     }
 
     /// Hash of shape and texels of level 0, the same in all runs of a program: what names the image.
-    #[expect(dead_code, reason = "identity is built on it")]
     pub fn content(&self) -> u64 {
         self.content
     }

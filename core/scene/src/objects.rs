@@ -1,0 +1,179 @@
+//! The objects of a world: where each was last, and what its motion says of it.
+
+use glam::DMat4;
+use hashbrown::HashMap;
+
+use crate::content::Content;
+
+/// Objects that are known, at most.
+const MOST: usize = 1 << 16;
+/// Frames that an object which moved once counts as one that moves.
+const MOVED: u32 = 240;
+/// Frames that an object with a matrix of its own must stand still to be part of the world.
+const SETTLED: u32 = 4;
+/// Frames of the same evidence that a verdict on motion takes.
+const EVIDENCE: u32 = 2;
+
+/// What an object's motion says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// Nothing yet.
+    Unknown,
+    /// It stands still.
+    Still,
+    /// It moves, or has moved.
+    Moves,
+    /// It turns with the world and keeps its place about the eye.
+    Carried,
+    /// It keeps its place on screen.
+    Attached,
+}
+
+/// What an object did in a frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Step {
+    /// It stood still.
+    Stood,
+    /// It moved in some way.
+    Moved,
+    /// It moved as the eye did.
+    Carried,
+    /// It moved and turned as the eye did.
+    Attached,
+}
+
+/// An object.
+#[derive(Debug, Clone)]
+pub struct Object {
+    /// Its name, the same in all frames and all runs.
+    pub id: u64,
+    /// Content of its texture.
+    pub texture: u64,
+    /// Object to world space when it was seen last; where it stands still, when it was seen first. Nothing before that.
+    pub model: Option<DMat4>,
+    /// Object to world space in the frame before that, if it was there.
+    pub before: Option<DMat4>,
+    /// Object to eye space when it was seen last.
+    pub eye: DMat4,
+    /// The frame in which it was seen last, 0 for none.
+    pub seen: u32,
+    /// Frames in a row of the same step, and that step.
+    steps: (Step, u32),
+    /// The frame in which it was seen to move last.
+    moved: Option<u32>,
+    carried: bool,
+    attached: bool,
+}
+
+impl Object {
+    /// Takes note of what it did. `camera_moves` tells whether that says anything.
+    pub fn step(&mut self, step: Step, camera_moves: bool, frame: u32) {
+        let count = if self.steps.0 == step { self.steps.1.saturating_add(1) } else { 1 };
+        self.steps = (step, count);
+        match step {
+            Step::Stood => {
+                if camera_moves && count > EVIDENCE {
+                    (self.carried, self.attached) = (false, false);
+                }
+            }
+            _ if count < EVIDENCE => {}
+            Step::Moved => {
+                (self.carried, self.attached) = (false, false);
+                self.moved = Some(frame);
+            }
+            Step::Carried => self.carried = true,
+            Step::Attached => self.attached = true,
+        }
+    }
+
+    /// What its motion says so far.
+    pub fn motion(&self, frame: u32) -> Motion {
+        let moves = self.moved.is_some_and(|moved| frame.wrapping_sub(moved) < MOVED);
+        match self.steps {
+            _ if self.carried => Motion::Carried,
+            _ if moves || self.attached => if self.attached { Motion::Attached } else { Motion::Moves },
+            (Step::Stood, count) if count >= SETTLED => Motion::Still,
+            _ => Motion::Unknown,
+        }
+    }
+
+    /// Whether it has stood still long enough to tell where the camera is.
+    pub fn is_trusted(&self) -> bool {
+        matches!(self.steps, (Step::Stood, count) if count >= SETTLED)
+    }
+}
+
+/// All objects that are known.
+#[derive(Debug, Default)]
+pub struct Objects {
+    objects: Vec<Object>,
+    by_content: HashMap<(u64, u32), Vec<u32>>,
+    /// How many objects have begun with the same content and texture: part of their names.
+    named: HashMap<u64, u64>,
+}
+
+impl Objects {
+    /// Whether there are so many that all must be forgotten.
+    pub fn is_full(&self) -> bool {
+        self.objects.len() > MOST
+    }
+
+    /// A new object of this content; its number.
+    pub fn add(&mut self, content: &Content, texture: u64) -> u32 {
+        let seed = content.positions ^ texture.rotate_left(17) ^ u64::from(content.triangles);
+        let before = self.named.entry(seed).or_default();
+        *before += 1;
+        let name = xxhash_rust::xxh3::xxh3_64(bytemuck::bytes_of(&[seed, *before]));
+        let number = self.objects.len() as u32;
+        self.objects.push(Object {
+            id: name.max(1),
+            texture,
+            model: None,
+            before: None,
+            eye: DMat4::IDENTITY,
+            seen: 0,
+            steps: (Step::Stood, 0),
+            moved: None,
+            carried: false,
+            attached: false,
+        });
+        self.by_content.entry((content.positions, content.triangles)).or_default().push(number);
+        number
+    }
+
+    /// The objects that were first seen with this content.
+    pub fn of_content(&self, content: &Content) -> &[u32] {
+        self.by_content.get(&(content.positions, content.triangles)).map_or(&[], |objects| objects)
+    }
+
+    /// An object.
+    pub fn get(&self, number: u32) -> Option<&Object> {
+        self.objects.get(number as usize)
+    }
+
+    /// An object, to be changed.
+    pub fn get_mut(&mut self, number: u32) -> Option<&mut Object> {
+        self.objects.get_mut(number as usize)
+    }
+
+    /// All objects.
+    pub fn all(&self) -> impl Iterator<Item = &Object> {
+        self.objects.iter()
+    }
+
+    /// Forgets where all objects are: the world is another. Names stay.
+    pub fn forget_places(&mut self) {
+        for object in &mut self.objects {
+            (object.model, object.before, object.seen) = (None, None, 0);
+            (object.steps, object.moved) = ((Step::Stood, 0), None);
+            (object.carried, object.attached) = (false, false);
+        }
+    }
+
+    /// Forgets all objects.
+    pub fn clear(&mut self) {
+        self.objects.clear();
+        self.by_content.clear();
+        self.named.clear();
+    }
+}

@@ -80,8 +80,8 @@ extern "C" {
 /* void glSceneObjectAFTERGLOW(GLuint64 object)
  *   The draws that follow are of this object: a name of the program's own that is the same in every frame, or 0 for
  *   none. Draws of different objects are kept apart.
- *   What it does today: it is the object's name in all that Afterglow finds out and reports of the frame, in place of
- *   one made from its content. */
+ *   By it, in frames that have a view, the object is found again where it was in the frame before, however far it
+ *   has gone since; its draws are paired in their order. */
 typedef void (AFTERGLOW_APIENTRY *PFNGLSCENEOBJECTAFTERGLOWPROC)(uint64_t object);
 
 /* void glSceneClassAFTERGLOW(GLenum sceneClass)

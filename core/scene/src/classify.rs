@@ -6,8 +6,8 @@ use glam::{DMat3, DMat4, DVec3, Mat4};
 use crate::draws::{DepthUse, DrawFacts, TransformFacts};
 use crate::geometry::{has_varying_colors, mean_color};
 use crate::matrix;
-use crate::opacity::Mixing;
 use crate::objects::Motion;
+use crate::opacity::Mixing;
 use crate::surfaces::Surfaces;
 use crate::tracking::Track;
 use crate::types::{Class, Verdict};
@@ -45,7 +45,7 @@ pub fn classify<'a>(
         .map(|d| (d, transforms[d.transform].modelview_hash));
     let surfaces = Surfaces::awaiting(candidates);
     let mut classifier = Classifier { frame, transforms, views, world, surfaces, track: None, base: None };
-    let mut verdicts: Vec<Verdict> = 
+    let mut verdicts: Vec<Verdict> =
         draws.iter().zip(tracks).map(|(facts, track)| classifier.verdict(facts, track.as_ref())).collect();
     bake_below_lightmaps(frame, draws, &mut verdicts);
     verdicts
@@ -349,7 +349,8 @@ impl<'a> Classifier<'a> {
     /// Whether a draw reaches around the eye and as far as the world does.
     fn surrounds(&self, facts: &DrawFacts) -> bool {
         let extent = self.extent(facts);
-        let centre = facts.eye_samples(self.frame, self.transforms, 64).fold(DVec3::ZERO, |sum, p| sum + p) / 64.0;
+        let centre =
+            facts.eye_samples(self.frame, self.transforms, 64).fold(DVec3::ZERO, |sum, p| sum + p) / 64.0;
         extent >= 0.5 * self.world.extent && centre.length() < 0.3 * extent
     }
 

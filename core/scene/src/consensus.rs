@@ -91,7 +91,8 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
     let mut candidates: Vec<Candidate> =
         proposals.into_iter().map(|view| weigh(witnesses, &extents, view, prior)).collect();
     candidates.retain(|candidate| !candidate.supporters.is_empty());
-    let trusted = witnesses.iter().zip(&extents).filter(|(w, _)| w.is_trusted).map(|(_, extent)| extent).sum();
+    let trusted =
+        witnesses.iter().zip(&extents).filter(|(w, _)| w.is_trusted).map(|(_, extent)| extent).sum();
     let chosen = choose(&candidates, trusted, prior)?;
     Some(refine(witnesses, &extents, chosen, prior))
 }
@@ -153,7 +154,9 @@ fn choose<'a>(candidates: &'a [Candidate], trusted: f64, prior: &Prior) -> Optio
     let others = candidates.iter().filter(|other| !std::ptr::eq(*other, best));
     let rival = match relation(best.view, prior) {
         Relation::Rests => others
-            .filter(|other| weight(other) > 0.2 * weight(best) && relation(other.view, prior) != Relation::Rests)
+            .filter(|other| {
+                weight(other) > 0.2 * weight(best) && relation(other.view, prior) != Relation::Rests
+            })
             .max_by(|a, b| weight(a).total_cmp(&weight(b))),
         Relation::Turns => others
             .filter(|other| weight(other) > 0.02 * weight(best) && turned_alike(other.view, best.view))
@@ -205,7 +208,8 @@ fn refine(witnesses: &[Witness], extents: &[f64], chosen: &Candidate, prior: &Pr
     }
     let total = sum.w_axis.w;
     let mean = matrix::orthonormal(sum * (1.0 / total));
-    let is_as_good = |view: DMat4| chosen.supporters.iter().all(|i| of(i).error(view, prior.focal) <= TOLERANCE);
+    let is_as_good =
+        |view: DMat4| chosen.supporters.iter().all(|i| of(i).error(view, prior.focal) <= TOLERANCE);
     if total > 0.0 && mean.is_finite() && is_as_good(mean) { mean } else { chosen.view }
 }
 

@@ -54,9 +54,8 @@ impl Formers {
         let waiting = std::mem::replace(&mut self.before, std::mem::take(&mut self.now));
         self.noted = 0;
         for (kind, formers) in waiting {
-            let awaited = |former: &Former| {
-                former.streak >= STREAK && frame.wrapping_sub(former.frame) < AWAITED
-            };
+            let awaited =
+                |former: &Former| former.streak >= STREAK && frame.wrapping_sub(former.frame) < AWAITED;
             let mut awaited: Vec<Former> = formers.into_iter().filter(awaited).collect();
             if !awaited.is_empty() {
                 self.before.entry(kind).or_default().append(&mut awaited);
@@ -108,7 +107,9 @@ impl Formers {
                 frame: now,
                 streak,
                 rests: match before {
-                    Some(former) if former.rests.1 == content.positions => (former.rests.0 + 1, content.positions),
+                    Some(former) if former.rests.1 == content.positions => {
+                        (former.rests.0 + 1, content.positions)
+                    }
                     _ => (0, content.positions),
                 },
                 object: before.and_then(|former| former.object),

@@ -6,6 +6,7 @@ use afterglow_gl::frame::{
     Draw, Frame, Hint, HintClass, HintLight, HintLightShape, HintMaterial, Operation, Topology,
 };
 use glam::{DMat4, Mat4, Vec3};
+use hashbrown::HashMap;
 
 use crate::matrix::{self, Perspective};
 use crate::types::{Camera, Class, LightOrigin, LightShape, Scene, SceneLight, Verdict};
@@ -16,8 +17,14 @@ const MOST_LIGHTS: usize = 32;
 const MOST_LIGHT: f32 = 1e9;
 const REASON: &str = "the program says so";
 
+/// Where objects were in the frame before, by the names that the program gives them: a model matrix for each draw, in
+/// the world of the view that it said.
+#[derive(Debug, Default)]
+pub struct Places(HashMap<u64, Vec<Mat4>>);
+
 /// Lets what the program says of a frame and its draws count more than what was found.
-pub fn apply(frame: &Frame, scene: &mut Scene) {
+pub fn apply(frame: &Frame, scene: &mut Scene, places: &mut Places) {
+    let before = std::mem::take(places);
     if frame.hints.is_empty() && frame.scene_hints.is_empty() {
         return;
     }
@@ -29,6 +36,7 @@ pub fn apply(frame: &Frame, scene: &mut Scene) {
     match said_camera(frame, scene) {
         Some(camera) => {
             move_world(frame, scene, camera);
+            follow(frame, scene, if frame.scene_hints.cut { Places::default() } else { before }, places);
             shine(frame, scene, &camera);
         }
         None => place(frame, scene, |verdict| verdict.reason == REASON),
@@ -59,6 +67,10 @@ fn say(frame: &Frame, draw: &Draw, hint: &Hint, verdict: &mut Verdict) {
     let class = hint.class.map(class_of).filter(|class| !class.is_traced() || can_be_traced(frame, draw));
     if let Some(class) = class {
         (verdict.class, verdict.reason) = (class, REASON);
+        if !class.is_traced() {
+            // What was found out of its place means nothing.
+            (verdict.model, verdict.previous, verdict.object) = (Mat4::IDENTITY, None, hint.object);
+        }
     }
     // Whoever says what a surface is made of means its colours as those of that material.
     if hint.material != HintMaterial::default() {
@@ -138,6 +150,18 @@ fn move_world(frame: &Frame, scene: &mut Scene, camera: Camera) {
     }
     scene.camera = Some(camera);
     place(frame, scene, |_| true);
+}
+
+/// Tells of each draw of a named object where it was: the draws of an object come in the same order in each frame.
+fn follow(frame: &Frame, scene: &mut Scene, before: Places, now: &mut Places) {
+    for verdict in scene.verdicts.iter_mut().filter(|verdict| verdict.class.is_traced()) {
+        let object = hinted(frame, verdict).map_or(0, |(_, hint)| hint.object);
+        if object != 0 {
+            let places = now.0.entry(object).or_default();
+            verdict.previous = before.0.get(&object).and_then(|before| before.get(places.len())).copied();
+            places.push(verdict.model);
+        }
+    }
 }
 
 /// Gives traced draws that `are_meant` their place under the scene's camera.

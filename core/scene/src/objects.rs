@@ -91,7 +91,13 @@ impl Object {
         let moves = self.moved.is_some_and(|moved| frame.wrapping_sub(moved) < MOVED);
         match self.steps {
             _ if self.carried => Motion::Carried,
-            _ if moves || self.attached => if self.attached { Motion::Attached } else { Motion::Moves },
+            _ if moves || self.attached => {
+                if self.attached {
+                    Motion::Attached
+                } else {
+                    Motion::Moves
+                }
+            }
             (Step::Stood, count) if count >= SETTLED => Motion::Still,
             _ => Motion::Unknown,
         }

@@ -29,6 +29,7 @@ pub struct Recovery {
     shapes: Shapes,
     tracker: Tracker,
     up: Option<Vec3>,
+    said: hints::Places,
 }
 
 impl Recovery {
@@ -47,7 +48,7 @@ impl Recovery {
     pub fn understand(&mut self, frame: &mut Frame) -> Scene {
         self.images.learn(frame);
         let mut scene = self.scene(frame);
-        hints::apply(frame, &mut scene);
+        hints::apply(frame, &mut scene, &mut self.said);
         self.images.forget(frame);
         scene
     }
@@ -93,10 +94,7 @@ impl Recovery {
             sky = sky.max(FALLBACK_SKY * 0.5);
         }
         Scene {
-            camera: Some(Camera {
-                view: world.view,
-                projection: world.perspective.projection.as_mat4(),
-            }),
+            camera: Some(Camera { view: world.view, projection: world.perspective.projection.as_mat4() }),
             verdicts,
             deformed: Vec::new(),
             lights,

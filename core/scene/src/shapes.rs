@@ -142,7 +142,8 @@ impl Shapes {
                 .retain(|_, seen| seen.first != seen.last || now.wrapping_sub(seen.last) < FORGOTTEN);
         }
         if self.triangles.len() > MOST_TRIANGLES {
-            let mut ages: Vec<u32> = self.triangles.values().map(|seen| now.wrapping_sub(seen.last)).collect();
+            let mut ages: Vec<u32> =
+                self.triangles.values().map(|seen| now.wrapping_sub(seen.last)).collect();
             let middle = ages.len() / 2;
             let (_, &mut median, _) = ages.select_nth_unstable(middle);
             self.triangles.retain(|_, seen| now.wrapping_sub(seen.last) < median.max(1));
@@ -166,7 +167,13 @@ impl Shapes {
             let is_planned = self.plans.contains_key(&found.bytes);
             // What is new may be what something animated has become: only then it matters whether it is still drawn.
             let marks = if is_planned && found.age > 2 { Vec::new() } else { self.mark(&found.content) };
-            surveyed.push(Surveyed { number, operation, found, texture: texture_of(frame, draw, images), marks });
+            surveyed.push(Surveyed {
+                number,
+                operation,
+                found,
+                texture: texture_of(frame, draw, images),
+                marks,
+            });
         }
         surveyed
     }
@@ -299,7 +306,11 @@ fn segments(frame: &Frame, draw: &Draw, marks: &[Option<u32>]) -> Vec<(u32, u32)
     ends.sort_unstable();
     ends.dedup();
     let mut start = 0;
-    ends.into_iter().filter(|&end| end > 0).map(|end| (std::mem::replace(&mut start, end), end)).map(|(s, e)| (s, e - s)).collect()
+    ends.into_iter()
+        .filter(|&end| end > 0)
+        .map(|end| (std::mem::replace(&mut start, end), end))
+        .map(|(s, e)| (s, e - s))
+        .collect()
 }
 
 /// Adds a stretch, to the one before where both belong to the same.
@@ -312,7 +323,11 @@ fn push(stretches: &mut Vec<Stretch>, first: u32, count: u32, known: Known) {
             }
             (Known::Animated(a, before), Known::Animated(b, corners)) if a == b => {
                 let complete = before.len() as u32 == 3 * last.count && corners.len() as u32 == 3 * count;
-                if complete { before.extend_from_slice(corners) } else { before.clear() }
+                if complete {
+                    before.extend_from_slice(corners)
+                } else {
+                    before.clear()
+                }
                 last.count += count;
                 return;
             }

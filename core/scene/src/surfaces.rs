@@ -3,8 +3,8 @@
 use afterglow_gl::frame::{Draw, Frame, Slot};
 use hashbrown::{HashMap, HashSet};
 
-use crate::draws::DrawFacts;
 use crate::content::triangle_key;
+use crate::draws::DrawFacts;
 use crate::geometry::{Attribute, hash_positions};
 
 /// Triangles of a draw that are looked up.

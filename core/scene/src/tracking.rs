@@ -140,7 +140,9 @@ impl Tracker {
         let in_order = (0..count.min(COMPARED)).map(|step| (*cursor + step) % count);
         let mut best: Option<(f64, u32)> = None;
         let start = *cursor;
-        for (next, object) in own.map(|own| (start, own)).into_iter().chain(in_order.map(|at| (at + 1, alike[at]))) {
+        for (next, object) in
+            own.map(|own| (start, own)).into_iter().chain(in_order.map(|at| (at + 1, alike[at])))
+        {
             let Some(known) = self.objects.get(object).filter(|_| is_free(&object)) else { continue };
             let away = match known.model {
                 Some(model) => model.transform_point3(centre).distance(centre_now),
@@ -182,7 +184,11 @@ impl Tracker {
         }
         let view = found.unwrap_or(before);
         let agrees = consensus::error(&world.samples, view, world.base, world.focal) <= TOLERANCE;
-        if agrees { self.base.0 += 1 } else { self.base.1 += 1 }
+        if agrees {
+            self.base.0 += 1
+        } else {
+            self.base.1 += 1
+        }
         view
     }
 
@@ -335,7 +341,10 @@ impl CameraStep {
             Step::Stood
         } else if was_there && is_at(former) {
             Step::Attached
-        } else if was_there && is_at(self.view * self.went * model) && !is_at(self.view * matrix::rigid_inverse(self.before) * former) {
+        } else if was_there
+            && is_at(self.view * self.went * model)
+            && !is_at(self.view * matrix::rigid_inverse(self.before) * former)
+        {
             Step::Carried
         } else {
             Step::Moved

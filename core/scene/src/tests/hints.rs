@@ -183,3 +183,29 @@ fn a_surface_of_a_material_is_not_baked() {
     let scene = Recovery::new().understand(&mut sketch.frame);
     assert_eq!((verdict(&scene, plain).baked, verdict(&scene, said).baked), (true, false));
 }
+
+#[test]
+fn an_object_that_is_named_is_found_again_where_it_was() {
+    let mut recovery = Recovery::new();
+    let mut frame = |x: f32, cut: bool| {
+        let mut sketch = Sketch::new();
+        sketch.frame.scene_hints.view = Some(view().to_cols_array_2d());
+        sketch.frame.scene_hints.cut = cut;
+        sketch.modelview = view();
+        sketch.world();
+        say(&mut sketch, Hint { object: 5, ..of_class(HintClass::Movable) });
+        let parts = [0.0, 1.0].map(|y| {
+            sketch.modelview = view() * Mat4::from_translation(Vec3::new(x, y, 0.0));
+            sketch.draw(&thing(1.0))
+        });
+        let scene = recovery.understand(&mut sketch.frame);
+        parts.map(|part| verdict(&scene, part).previous.map(|model| model.w_axis.truncate()))
+    };
+    let near = |place: Option<Vec3>, x: f32, y: f32| place.unwrap().abs_diff_eq(Vec3::new(x, y, 0.0), 1e-4);
+    assert_eq!(frame(1.0, false), [None; 2]);
+    let [low, high] = frame(30.0, false);
+    assert!(near(low, 1.0, 0.0) && near(high, 1.0, 1.0));
+    assert_eq!(frame(2.0, true), [None; 2]);
+    let [low, _] = frame(2.0, false);
+    assert!(near(low, 2.0, 0.0));
+}

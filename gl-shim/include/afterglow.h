@@ -102,17 +102,19 @@ typedef void (AFTERGLOW_APIENTRY *PFNGLSCENECLASSAFTERGLOWPROC)(unsigned int sce
 typedef void (AFTERGLOW_APIENTRY *PFNGLSCENEMATERIALAFTERGLOWPROC)(float roughness, float metallic);
 
 /* void glSceneEmissionAFTERGLOW(GLfloat red, GLfloat green, GLfloat blue)
- *   The radiance that they give off, whatever their texture. It is seen (no brighter than white) and lights what is
- *   near, as far as rays that are scattered by surfaces happen to meet it: say a light besides for a small bright lamp.
+ *   The radiance that they give off, whatever their texture; an emission map varies it. It is seen (no brighter than
+ *   white) and lights what is near, as far as rays that are scattered by surfaces happen to meet it: say a light
+ *   besides for a small bright lamp.
  *   It has no effect in a world whose only light is baked into its textures.
  *   GL_INVALID_VALUE: negative or not finite. */
 typedef void (AFTERGLOW_APIENTRY *PFNGLSCENEEMISSIONAFTERGLOWPROC)(float red, float green, float blue);
 
 /* void glSceneMapAFTERGLOW(GLenum map, GLuint texture)
  *   A two-dimensional texture, by its name, that varies the material over the surface, with the coordinates of texture
- *   unit 0; 0 is none. It is looked up when something is drawn: a name that is no complete two-dimensional
- *   texture then is as 0.
- *   What it does today: it is kept with the draw, and nothing is done with it yet.
+ *   unit 0 as they are given (no texture matrix, no generation); 0 is none. It is looked up when something is drawn: a
+ *   name that is no complete two-dimensional texture then is as 0. Metallic-roughness (linear) and emission (sRGB) are
+ *   multiplied with what is said of the draw, or with 1 if nothing is. Normals are in the space of the triangle, x
+ *   along growing s, y along growing t, 0.5 being 0; rays that other surfaces scatter meet it without them.
  *   GL_INVALID_ENUM: no such map. */
 typedef void (AFTERGLOW_APIENTRY *PFNGLSCENEMAPAFTERGLOWPROC)(unsigned int map, unsigned int texture);
 

@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 216 bytes
+struct SurfaceDraw { // 224 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -24,7 +24,9 @@ struct SurfaceDraw { // 216 bytes
     vec3 emission;
     float roughness;
     float metallic;
-    uint padding;
+    uint normal_map;
+    uint metallic_roughness_map;
+    uint emission_map;
 };
 #endif
 
@@ -159,6 +161,7 @@ struct ViewPush { // 32 bytes
 #define MASK_MOVING 2u
 #define MASK_VIEW_MODEL 4u
 #define MEMBER_SHIFT 20u
+#define NO_MAP 4294967295u
 
 #define SURFACE_NONE 0u
 #define SURFACE_LIT 1u

@@ -12,10 +12,11 @@ use super::arrange::Mark;
 use super::geometry::GeometryReader;
 use super::lights::Highlights;
 use super::options::{Displaced, PathtraceOptions};
+use super::said::SaidMaterial;
 use super::surfaces::{LayerFinder, Lighting, Located, has_holes, masks, surface_draw};
 use super::tracer::Tracing;
 use super::world::{Traced, relative};
-use crate::bindings::Lookup;
+use crate::bindings::{Lookup, image_word};
 use crate::passes::raster::{DrawMark, RasterState};
 use crate::tables::Scratch;
 use crate::textures::Textures;
@@ -174,9 +175,11 @@ impl<'a> Gatherer<'a, '_> {
             indices: input.scratch.commands[place.number].indices,
             push: &push,
         };
+        let material = SaidMaterial::of(input.frame, draw, |map| image_word(&mut lookup, map))?;
         let number = self.surfaces.records.len() as u32;
         let rows = relative(&verdict.model, self.origin);
         let record = surface_draw(input.frame, draw, located, rows, kind, ray_mask, number);
+        let record = material.write(record);
         self.surfaces.records.push(record);
         Ok(number)
     }

@@ -2,7 +2,8 @@
 
 use afterglow_gl::frame::{Compare, Draw, FixedState, Frame, StateWords};
 use afterglow_records::{
-    BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, SurfaceDraw, SurfaceKind,
+    BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, NO_MAP, SurfaceDraw,
+    SurfaceKind,
 };
 use afterglow_scene::{Class, LightOrigin, Scene, Verdict};
 use hashbrown::HashMap;
@@ -91,8 +92,6 @@ pub(crate) fn surface_draw(
     words.global.set_lighting(words.is_lit().into());
     let words: &[u32] = bytemuck::cast_slice(std::slice::from_ref(&words));
     let record = located.record;
-    let material = frame.hint(draw).map(|hint| hint.material).unwrap_or_default();
-    let [roughness, metallic] = material.roughness_metallic.unwrap_or([-1.0, 0.0]);
     SurfaceDraw {
         vertices: record.vertices,
         indices: located.indices,
@@ -110,10 +109,12 @@ pub(crate) fn surface_draw(
         next_layer: number,
         blend: blend_word(fixed).0[0],
         ray_mask,
-        emission: material.emission.unwrap_or_default(),
-        roughness,
-        metallic,
-        padding: 0,
+        emission: [0.0; 3],
+        roughness: -1.0,
+        metallic: 0.0,
+        normal_map: NO_MAP,
+        metallic_roughness_map: NO_MAP,
+        emission_map: NO_MAP,
     }
 }
 

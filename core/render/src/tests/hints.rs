@@ -2,7 +2,8 @@
 //! had been said.
 
 use afterglow_api::constants::*;
-use afterglow_gl::Context;
+use afterglow_gl::texture::ImageDefinition;
+use afterglow_gl::{Context, Params};
 use afterglow_scene::{LightOrigin, TriangleCounts};
 
 use super::pathtrace::{OPEN, SHADOW, SIZE, Stage, slab};
@@ -109,6 +110,72 @@ fn a_smooth_floor_has_a_highlight_and_a_metallic_one_a_brighter_one() {
     };
     let (rough, smooth, metal) = (peak(1.0, 0.0), peak(0.5, 0.0), peak(0.5, 1.0));
     assert!(smooth > rough + 5 && metal > smooth + 5, "{rough} {smooth} {metal}");
+}
+
+/// A texture of one texel, bound to nothing.
+fn texture(gl: &mut Context, name: u32, texel: [u8; 4]) {
+    gl.bind_texture(GL_TEXTURE_2D, name);
+    gl.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, Params::Ints(&[GL_NEAREST as i32]));
+    let definition = ImageDefinition { level: 0, internal_format: GL_RGBA, size: [1; 3], border: 0 };
+    gl.tex_image((GL_TEXTURE_2D, 2), definition, (GL_RGBA, GL_UNSIGNED_BYTE), Some(&texel));
+    gl.bind_texture(GL_TEXTURE_2D, 0);
+}
+
+#[test]
+fn maps_vary_emission_roughness_and_normals() {
+    let frame = |gl: &mut Context| {
+        gl.scene_view();
+        gl.scene_directional_light(1, [-0.5, -1.0, 1.0], [3.0; 3], 0.5);
+        gl.scene_sky(0.1, 0.1, 0.1);
+        texture(gl, 1, [0, 128, 255, 255]);
+        texture(gl, 2, [0, 255, 0, 255]);
+    };
+    let seen = |floor: &dyn Fn(&mut Context), [x, y]: [u32; 2]| {
+        let stage = traced(&Said { frame: Some(&frame), floor: Some(floor), ..Said::default() });
+        let pixel = ((y * SIZE.0 + x) * 4) as usize;
+        <[u8; 3]>::try_from(&stage.picture()[pixel..pixel + 3]).unwrap().map(i32::from)
+    };
+    const MIRRORS: [u32; 2] = [69, 46];
+    let plain = seen(&|gl| gl.scene_material(1.0, 0.0), MIRRORS);
+    // Half as rough, and all metal.
+    let varied = seen(&|gl| gl.scene_map(GL_SCENE_METALLIC_ROUGHNESS_MAP_AFTERGLOW, 1), MIRRORS);
+    assert!(varied[1] > plain[1] + 5, "{varied:?} {plain:?}");
+    let glowing = seen(&|gl| gl.scene_map(GL_SCENE_EMISSION_MAP_AFTERGLOW, 2), OPEN);
+    assert!(glowing[1] > glowing[0] + 30, "{glowing:?}");
+    let white = seen(&|gl| gl.scene_emission(0.0, 0.0, 2.0), OPEN);
+    assert!(white[2] > white[1] + 30, "{white:?}");
+    let both = |gl: &mut Context| {
+        gl.scene_emission(0.0, 0.0, 2.0);
+        gl.scene_map(GL_SCENE_EMISSION_MAP_AFTERGLOW, 2);
+    };
+    let none = seen(&both, OPEN);
+    assert!(none[2] < none[1] + 10, "the map lets no blue through: {none:?}");
+}
+
+#[test]
+fn a_normal_map_turns_the_surface() {
+    // The floor's s grows with x, and so does the map's lean; a light from the left and one from the right.
+    let seen = |direction: [f32; 3], is_mapped: bool| {
+        let frame = |gl: &mut Context| {
+            gl.scene_view();
+            gl.scene_directional_light(1, direction, [3.0; 3], 0.5);
+            gl.scene_sky(0.05, 0.05, 0.05);
+            texture(gl, 3, [218, 128, 218, 255]);
+        };
+        let floor = |gl: &mut Context| {
+            if is_mapped {
+                gl.scene_map(GL_SCENE_NORMAL_MAP_AFTERGLOW, 3);
+            }
+        };
+        let stage = traced(&Said { frame: Some(&frame), floor: Some(&floor), ..Said::default() });
+        // The slab has no map: beside it, exposure does not matter.
+        f64::from(stage.brightness(OPEN)) / f64::from(stage.brightness([48, 28]))
+    };
+    let (left, right) = ([1.0, -1.0, 0.0], [-1.0, -1.0, 0.0]);
+    let flat = (seen(left, false), seen(right, false));
+    assert!((flat.0 / flat.1 - 1.0).abs() < 0.1, "{flat:?}");
+    let mapped = (seen(left, true), seen(right, true));
+    assert!(mapped.1 > 1.1 * flat.1 && mapped.0 < 0.5 * flat.0, "{mapped:?} {flat:?}");
 }
 
 #[test]

@@ -95,6 +95,7 @@ pub(super) fn slab(gl: &mut Context, half: f32) {
     gl.begin(GL_QUADS);
     gl.normal([0.0, 1.0, 0.0]);
     for [x, z] in [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
+        gl.tex_coord([x, -z, 0.0, 1.0]);
         gl.vertex([x * half, 0.0, z * half, 1.0]);
     }
     gl.end();

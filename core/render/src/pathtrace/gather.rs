@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use afterglow_gl::frame::{Draw, Frame, Topology};
+use afterglow_gl::frame::{Draw, Frame, HintMaterial, Topology};
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
 use afterglow_records::{SurfaceDraw, SurfaceKind, WHITE_ALBEDO};
 use afterglow_scene::Verdict;
@@ -123,7 +123,9 @@ impl<'a> Gatherer<'a, '_> {
 
     fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
-        let kind = self.lighting.kind(verdict, words);
+        let hint = self.input.frame.hint(place.draw);
+        let has_material = hint.is_some_and(|hint| hint.material != HintMaterial::default());
+        let kind = self.lighting.kind(verdict, words, has_material);
         let (mask, meets) = masks(verdict.class, kind);
         let surface = self.record(place, verdict, kind, meets)?;
         let triangles = self.geometry.read(self.input.frame, place.draw);

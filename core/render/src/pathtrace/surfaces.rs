@@ -38,10 +38,10 @@ impl Lighting {
         }
     }
 
-    /// How light is found for a draw.
-    pub(crate) fn kind(self, verdict: &Verdict, words: &StateWords) -> SurfaceKind {
+    /// How light is found for a draw; `has_material`: the program says what it is made of.
+    pub(crate) fn kind(self, verdict: &Verdict, words: &StateWords, has_material: bool) -> SurfaceKind {
         match self {
-            Self::Lights if words.is_lit() => SurfaceKind::Lit,
+            Self::Lights if words.is_lit() || has_material => SurfaceKind::Lit,
             Self::Lights => SurfaceKind::Catcher,
             Self::Said | Self::MadeUp if verdict.baked => SurfaceKind::Catcher,
             Self::Said | Self::MadeUp => SurfaceKind::Lit,

@@ -179,6 +179,29 @@ fn a_normal_map_turns_the_surface() {
 }
 
 #[test]
+fn an_unlit_surface_of_a_material_is_lit_by_the_programs_own_lights() {
+    // The floor is lit by glLight, the slab is not.
+    let seen = |slab: &dyn Fn(&mut Context)| {
+        let floor = |gl: &mut Context| {
+            gl.light(GL_LIGHT0, GL_POSITION, Params::Floats(&[0.0, 5.0, 0.0, 1.0]));
+            gl.enable(GL_LIGHTING);
+            gl.enable(GL_LIGHT0);
+        };
+        let slab = |gl: &mut Context| {
+            gl.disable(GL_LIGHTING);
+            slab(gl);
+        };
+        let stage = traced(&Said { floor: Some(&floor), slab: Some(&slab), ..Said::default() });
+        let pixel = ((28 * SIZE.0 + 48) * 4) as usize;
+        <[u8; 3]>::try_from(&stage.picture()[pixel..pixel + 3]).unwrap().map(i32::from)
+    };
+    let [red, green, _] = seen(&|_| {});
+    assert_eq!(red, green);
+    let [red, green, _] = seen(&|gl| gl.scene_emission(0.0, 2.0, 0.0));
+    assert!(green > red + 30, "{red} {green}");
+}
+
+#[test]
 fn classes_that_are_said_are_those_that_are_reported() {
     let class = |gl: &mut Context| gl.scene_class(GL_SCENE_DYNAMIC_AFTERGLOW);
     let stage = traced(&Said { slab: Some(&class), ..Said::default() });

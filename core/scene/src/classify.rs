@@ -2,17 +2,22 @@
 
 use afterglow_gl::frame::{CombineFunction, EnvMode, Format, Frame, Slot, StencilOp, Topology, UnitWords};
 use glam::{DMat3, DMat4, DVec3, Mat4};
+use hashbrown::HashSet;
 
 use crate::draws::{DepthUse, DrawFacts, TransformFacts};
 use crate::geometry::{has_varying_colors, mean_color};
 use crate::matrix;
 use crate::objects::Motion;
 use crate::opacity::Mixing;
+use crate::shapes::Piece;
 use crate::surfaces::Surfaces;
 use crate::tracking::Track;
 use crate::types::{Class, Verdict};
-use crate::views::Views;
+use crate::views::{Views, share_of_drawable};
 use crate::world::{Stage, World};
+
+/// Share of the drawable below which a viewport is small.
+const SMALL: f64 = 0.15;
 
 /// Class and reason.
 type Finding = (Class, &'static str);
@@ -24,6 +29,10 @@ struct Classifier<'a> {
     views: &'a Views,
     world: &'a World,
     surfaces: Surfaces,
+    /// Something of the world is seen in a mirror.
+    has_mirrors: bool,
+    /// What each view shows.
+    shown: Vec<Shown>,
     /// What is known of the object that the draw at hand is of.
     track: Option<&'a Track>,
     /// Operation of the surface that the draw at hand was found to be a layer of.
@@ -37,6 +46,7 @@ pub fn classify<'a>(
     views: &'a Views,
     world: &'a World,
     draws: &'a [DrawFacts<'a>],
+    pieces: &[Option<Piece>],
     tracks: &'a [Option<Track>],
 ) -> Vec<Verdict> {
     let candidates = draws
@@ -44,11 +54,44 @@ pub fn classify<'a>(
         .filter(|d| d.place.view == world.place && d.operation > world.first && may_be_layer(d))
         .map(|d| (d, transforms[d.transform].modelview_hash));
     let surfaces = Surfaces::awaiting(candidates);
-    let mut classifier = Classifier { frame, transforms, views, world, surfaces, track: None, base: None };
+    let mut classifier = Classifier {
+        frame,
+        transforms,
+        views,
+        world,
+        surfaces,
+        has_mirrors: draws.iter().any(|facts| world.mirrors(facts, transforms)),
+        shown: shown(views, world, draws, pieces),
+        track: None,
+        base: None,
+    };
     let mut verdicts: Vec<Verdict> =
         draws.iter().zip(tracks).map(|(facts, track)| classifier.verdict(facts, track.as_ref())).collect();
     bake_below_lightmaps(frame, draws, &mut verdicts);
     verdicts
+}
+
+/// Triangles of a view, and those of them that the world's view shows as well.
+#[derive(Debug, Clone, Copy, Default)]
+struct Shown {
+    all: u64,
+    of_world: u64,
+}
+
+fn shown(views: &Views, world: &World, draws: &[DrawFacts], pieces: &[Option<Piece>]) -> Vec<Shown> {
+    let mut shown = vec![Shown::default(); views.views.len()];
+    if views.views.len() > 1 {
+        let drawn = || draws.iter().zip(pieces).filter_map(|(facts, piece)| Some((facts, piece.as_ref()?)));
+        let of_world =
+            |(facts, piece): (&DrawFacts, &Piece)| (facts.place.view == world.place).then(|| piece.subject());
+        let of_world: HashSet<u64> = drawn().filter_map(of_world).collect();
+        for (facts, piece) in drawn() {
+            let view = &mut shown[facts.place.view];
+            view.all += u64::from(facts.triangles);
+            view.of_world += if of_world.contains(&piece.subject()) { u64::from(facts.triangles) } else { 0 };
+        }
+    }
+    shown
 }
 
 fn may_be_layer(facts: &DrawFacts) -> bool {
@@ -137,10 +180,19 @@ impl<'a> Classifier<'a> {
         let perspective = self.transform(facts).perspective.is_some();
         Some(match perspective && facts.depth != DepthUse::Off {
             _ if self.views.views[facts.place.view].erased => (Class::OtherView, "erased later"),
+            true if self.is_icon(facts) => (Class::Interface, "a thing of its own in a small viewport"),
             true => (Class::OtherView, "another viewport"),
             false if self.is_early(facts) => (Class::OtherView, "another viewport, flat"),
             false => (Class::Interface, "another viewport, flat"),
         })
+    }
+
+    /// Whether a draw in a small viewport over the world shows nothing of the world.
+    fn is_icon(&self, facts: &DrawFacts) -> bool {
+        let rect = self.views.views[facts.place.view].rect;
+        let is_small = share_of_drawable(rect, self.frame.size) < SMALL;
+        let of_world = self.shown.get(facts.place.view).is_some_and(|shown| 2 * shown.of_world > shown.all);
+        is_small && self.is_late(facts) && !of_world
     }
 
     fn without_color(&self, facts: &DrawFacts) -> Option<Finding> {
@@ -155,8 +207,10 @@ impl<'a> Classifier<'a> {
         let is_volume = raster.stencil.is_some_and(|s| counts(s.depth_fail) || counts(s.pass))
             && matches!(facts.depth, DepthUse::Test)
             && !self.is_early(facts);
+        let marks = raster.stencil.is_some_and(|s| s.pass == StencilOp::Replace);
         Some(match is_volume {
             true => (Class::Dropped, "shadow volume"),
+            false if marks && self.has_mirrors => (Class::OtherView, "says where a mirror is"),
             false => (Class::Undecided, "writes no colour"),
         })
     }

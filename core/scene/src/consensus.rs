@@ -5,6 +5,8 @@
 //! much as what agrees with it reaches in space and over the screen, and as there are different meshes: by numbers of
 //! vertices a chase camera's car outweighs the world.
 
+use std::cmp::Ordering;
+
 use glam::{DMat3, DMat4, DVec2, DVec3};
 use hashbrown::HashSet;
 
@@ -14,6 +16,8 @@ use crate::matrix;
 const MOST_PROPOSALS: usize = 24;
 /// Pixels within which a position is where it should be.
 pub const TOLERANCE: f64 = 0.5;
+/// Pixels within which witnesses are so close that their mean is better than each.
+const CLOSE: f64 = 0.05;
 /// Pixels within which two proposals are one.
 const SAME: f64 = 1.0;
 
@@ -199,18 +203,23 @@ fn refine(witnesses: &[Witness], extents: &[f64], chosen: &Candidate, prior: &Pr
     if let Some(best) = exact.max_by(|a, b| extents[**a].total_cmp(&extents[**b]).then(b.cmp(a))) {
         return matrix::orthonormal(of(best).eye);
     }
+    // What moves slowly agrees as well, but not as closely as what stands still.
+    let rank = |i: usize| (witnesses[i].is_trusted, extents[i]);
+    let by_rank =
+        |a: &&usize, b: &&usize| rank(**a).partial_cmp(&rank(**b)).unwrap_or(Ordering::Equal).then(b.cmp(a));
+    let best = chosen.supporters.iter().max_by(by_rank).and_then(|best| of(best).proposal());
+    let best = best.unwrap_or(chosen.view);
     let mut sum = DMat4::ZERO;
     for index in &chosen.supporters {
         let weight = extents[*index];
-        if let Some(view) = of(index).proposal().filter(|_| weight > 0.0) {
+        let close = of(index).error(best, prior.focal) <= CLOSE;
+        if let Some(view) = of(index).proposal().filter(|_| close && weight > 0.0) {
             sum += view * weight;
         }
     }
     let total = sum.w_axis.w;
     let mean = matrix::orthonormal(sum * (1.0 / total));
-    let is_as_good =
-        |view: DMat4| chosen.supporters.iter().all(|i| of(i).error(view, prior.focal) <= TOLERANCE);
-    if total > 0.0 && mean.is_finite() && is_as_good(mean) { mean } else { chosen.view }
+    if total > 0.0 && mean.is_finite() { mean } else { best }
 }
 
 /// Diagonal of a witness's box in eye space.

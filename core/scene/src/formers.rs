@@ -11,6 +11,8 @@ use crate::content::{Content, corners};
 
 /// Stretches that are noted in a frame, at most.
 const MOST: usize = 1 << 14;
+/// Stretches of one kind that a fresh one is compared with, at most.
+const MOST_COMPARED: usize = 64;
 /// Triangles up to which a stretch is a sprite: too simple to be known by its topology from afar.
 pub const SPRITE: u32 = 4;
 /// Frames for which what was animated is waited for.
@@ -29,12 +31,25 @@ pub struct Former {
     first_key: u64,
     frame: u32,
     streak: u32,
+    is_taken: bool,
     /// Frames for which it has been where it is, and its positions.
     rests: (u32, u64),
-    /// What it belongs to, once it counts as animated.
+    /// What it belongs to.
     pub object: Option<u32>,
     /// Where its corners were.
     pub corners: Vec<Vec3>,
+}
+
+impl Former {
+    /// Whether it has been where it is for long.
+    pub fn has_settled(&self, content: &Content) -> bool {
+        self.rests.0 > RESTED && self.rests_at(content)
+    }
+
+    /// Whether it is where it was.
+    pub fn rests_at(&self, content: &Content) -> bool {
+        self.rests.1 == content.positions
+    }
 }
 
 /// Topology, texture, number of triangles.
@@ -46,16 +61,16 @@ pub struct Formers {
     before: HashMap<Kind, Vec<Former>>,
     now: HashMap<Kind, Vec<Former>>,
     noted: usize,
+    frame: u32,
 }
 
 impl Formers {
     /// A frame begins: what was noted becomes what was before.
     pub fn next_frame(&mut self, frame: u32) {
         let waiting = std::mem::replace(&mut self.before, std::mem::take(&mut self.now));
-        self.noted = 0;
+        (self.noted, self.frame) = (0, frame);
         for (kind, formers) in waiting {
-            let awaited =
-                |former: &Former| former.streak >= STREAK && frame.wrapping_sub(former.frame) < AWAITED;
+            let awaited = |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
             let mut awaited: Vec<Former> = formers.into_iter().filter(awaited).collect();
             if !awaited.is_empty() {
                 self.before.entry(kind).or_default().append(&mut awaited);
@@ -63,28 +78,56 @@ impl Formers {
         }
     }
 
-    /// Finds what new triangles were before, and takes it. `is_drawn` tells whether a triangle is in this frame.
-    pub fn take(
-        &mut self,
-        content: &Content,
-        texture: u64,
-        is_drawn: impl Fn(u64) -> bool,
-    ) -> Option<Former> {
-        let formers = self.before.get_mut(&(content.topology, texture, content.triangles))?;
-        let alone = formers.len() == 1;
-        let reach = |former: &Former| match content.triangles {
+    /// Whether something animated of the same kind is waited for.
+    pub fn expect(&self, content: &Content, texture: u64) -> bool {
+        let formers = self.before.get(&(content.topology, texture, content.triangles));
+        let is_animated = |former: &Former| former.streak >= STREAK;
+        content.triangles > SPRITE && formers.is_some_and(|formers| formers.iter().any(is_animated))
+    }
+
+    /// Finds what fresh triangles were before, the nearest first. `is_drawn` tells whether a triangle is in this frame.
+    pub fn take(&mut self, fresh: Vec<(&Content, u64, &mut Option<Former>)>, is_drawn: impl Fn(u64) -> bool) {
+        let mut pairs: Vec<(f32, usize, Kind, usize)> = Vec::new();
+        for (index, (content, texture, _)) in fresh.iter().enumerate() {
+            let kind = (content.topology, *texture, content.triangles);
+            let Some(formers) = self.before.get(&kind) else { continue };
+            let may_be = |former: &Former| {
+                let is_same = content.keys.first() == Some(&former.first_key);
+                self.may_go(former, content, formers.len()) && (is_same || !is_drawn(former.first_key))
+            };
+            let candidates =
+                formers.iter().enumerate().filter(|(_, former)| may_be(former)).take(MOST_COMPARED);
+            pairs.extend(
+                candidates.map(|(at, former)| (former.centre.distance(content.centre), index, kind, at)),
+            );
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.3.cmp(&b.3)));
+        let mut fresh = fresh;
+        for (_, index, kind, at) in pairs {
+            let Some(former) = self.before.get_mut(&kind).and_then(|formers| formers.get_mut(at)) else {
+                continue;
+            };
+            let (_, _, slot) = &mut fresh[index];
+            if slot.is_none() && !former.is_taken {
+                former.is_taken = true;
+                let corners = std::mem::take(&mut former.corners);
+                **slot = Some(Former { corners, ..former.clone() });
+            }
+        }
+        for formers in self.before.values_mut() {
+            formers.retain(|former| !former.is_taken);
+        }
+    }
+
+    /// Whether a stretch may have gone so far: the longer it was away, the farther.
+    fn may_go(&self, former: &Former, content: &Content, alike: usize) -> bool {
+        let away = self.frame.wrapping_sub(former.frame) as f32;
+        let reach = match content.triangles {
             0..=SPRITE => 0.75 * former.extent.max(content.extent),
-            _ if alone => 8.0 * former.extent,
+            _ if alike == 1 => 8.0 * former.extent,
             _ => 2.0 * former.extent,
         };
-        let distance = |former: &Former| former.centre.distance(content.centre);
-        let may_be = |former: &Former| {
-            let rests = former.rests.0 > RESTED && former.rests.1 == content.positions;
-            distance(former) <= reach(former) && !is_drawn(former.first_key) && !rests
-        };
-        let candidates = formers.iter().enumerate().filter(|(_, former)| may_be(former));
-        let (nearest, _) = candidates.min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)))?;
-        Some(formers.swap_remove(nearest))
+        former.centre.distance(content.centre) <= away * reach
     }
 
     /// Notes new triangles of a draw, and what they were before. Returns whether they count as animated.
@@ -106,6 +149,7 @@ impl Formers {
                 first_key: content.keys.first().copied().unwrap_or(0),
                 frame: now,
                 streak,
+                is_taken: false,
                 rests: match before {
                     Some(former) if former.rests.1 == content.positions => {
                         (former.rests.0 + 1, content.positions)

@@ -57,6 +57,8 @@ pub struct Object {
     pub eye: DMat4,
     /// The frame in which it was seen last, 0 for none.
     pub seen: u32,
+    /// Its vertices move.
+    pub is_animated: bool,
     /// Frames in a row of the same step, and that step.
     steps: (Step, u32),
     /// The frame in which it was seen to move last.
@@ -138,6 +140,7 @@ impl Objects {
             before: None,
             eye: DMat4::IDENTITY,
             seen: 0,
+            is_animated: false,
             steps: (Step::Stood, 0),
             moved: None,
             carried: false,
@@ -160,6 +163,13 @@ impl Objects {
     /// An object, to be changed.
     pub fn get_mut(&mut self, number: u32) -> Option<&mut Object> {
         self.objects.get_mut(number as usize)
+    }
+
+    /// Says whether the vertices of an object move.
+    pub fn set_animated(&mut self, number: u32, is_animated: bool) {
+        if let Some(object) = self.objects.get_mut(number as usize) {
+            object.is_animated = is_animated;
+        }
     }
 
     /// All objects.

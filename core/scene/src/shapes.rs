@@ -11,16 +11,21 @@ use glam::Vec3;
 use hashbrown::HashMap;
 
 use crate::content::{Content, Contents, Found};
-use crate::formers::{Formers, SPRITE};
+use crate::formers::{Former, Formers, SPRITE};
 use crate::images::Images;
 use crate::objects::Objects;
 
 /// Pieces that a draw is cut into, at most.
 const MOST_PIECES: usize = 64;
+/// Parts of a draw, at most, that are things of their own.
+const MOST_THINGS: usize = 16;
 /// Triangles that are known, at most.
 const MOST_TRIANGLES: usize = 1 << 21;
 /// Frames after which a triangle that was drawn in one frame only is forgotten.
-const FORGOTTEN: u32 = 8;
+const FORGOTTEN: u32 = 300;
+
+/// Frames for which the plan of a draw that is not drawn is kept.
+const PLANNED: u32 = 16;
 
 /// What a piece belongs to.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +47,16 @@ pub struct Piece {
     pub texture: u64,
     /// What it belongs to.
     pub known: Known,
+}
+
+impl Piece {
+    /// Names what the piece shows, wherever it is drawn.
+    pub fn subject(&self) -> u64 {
+        match &self.known {
+            Known::Object(object) | Known::Animated(object, _) => u64::from(*object),
+            Known::Mesh => self.content.positions,
+        }
+    }
 }
 
 /// A triangle's object, and the frames in which it was seen first and last.
@@ -79,9 +94,25 @@ struct Surveyed {
     operation: usize,
     found: Found,
     texture: u64,
-    /// The object of each triangle; empty where a plan is known.
+    /// There is a plan for it.
+    is_planned: bool,
+    /// The object of each triangle; none of those that are animated. Empty where a plan is known.
     marks: Vec<Option<u32>>,
+    /// The object that most triangles belonged to when they were seen.
+    known: Option<u32>,
 }
+
+/// Triangles of a draw some of which nobody has seen before.
+struct Fresh {
+    first: u32,
+    count: u32,
+    content: Option<Arc<Content>>,
+    /// What they were in the frame before.
+    former: Option<Former>,
+}
+
+/// How a draw is cut at first: parts, of which some are fresh.
+type Parts = Vec<(u32, u32, Option<Fresh>)>;
 
 impl Shapes {
     /// Cuts the draws of a frame that `is_wanted`. Returns a piece for each draw that the frame has then, in order.
@@ -93,15 +124,16 @@ impl Shapes {
         is_wanted: impl Fn(&Frame, &Draw) -> bool,
     ) -> Vec<Option<Piece>> {
         self.next_frame();
-        let surveyed = self.survey(frame, images, is_wanted);
+        let surveyed = self.survey(frame, images, objects, is_wanted);
+        let parts = self.parts(frame, &surveyed, objects);
         let mut pieces: Vec<Option<Piece>> = Vec::with_capacity(surveyed.len());
         let mut cuts: Vec<(usize, Vec<(u32, u32)>)> = Vec::new();
         let mut draws = 0;
-        for surveyed in surveyed {
+        for (surveyed, parts) in surveyed.into_iter().zip(parts) {
             pieces.resize_with(pieces.len() + surveyed.number - draws, || None);
             draws = surveyed.number + 1;
             let Some(Operation::Draw(draw)) = frame.operations.get(surveyed.operation) else { continue };
-            let stretches = self.stretches(frame, draw, &surveyed, objects);
+            let stretches = self.stretches(frame, draw, &surveyed, parts, objects);
             if let [whole] = stretches.as_slice() {
                 pieces.push(Some(Piece {
                     content: surveyed.found.content,
@@ -136,8 +168,10 @@ impl Shapes {
         self.contents.next_frame();
         self.formers.next_frame(self.frame);
         let now = self.frame;
-        if now.is_multiple_of(4 * FORGOTTEN) {
-            self.plans.retain(|_, (_, used)| now.wrapping_sub(*used) < FORGOTTEN);
+        if now.is_multiple_of(PLANNED) {
+            self.plans.retain(|_, (_, used)| now.wrapping_sub(*used) < PLANNED);
+        }
+        if now.is_multiple_of(FORGOTTEN) {
             self.triangles
                 .retain(|_, seen| seen.first != seen.last || now.wrapping_sub(seen.last) < FORGOTTEN);
         }
@@ -156,6 +190,7 @@ impl Shapes {
         &mut self,
         frame: &Frame,
         images: &Images,
+        objects: &Objects,
         is_wanted: impl Fn(&Frame, &Draw) -> bool,
     ) -> Vec<Surveyed> {
         let mut surveyed = Vec::new();
@@ -164,28 +199,83 @@ impl Shapes {
                 continue;
             }
             let Some(found) = self.contents.of(frame, draw) else { continue };
-            let is_planned = self.plans.contains_key(&found.bytes);
+            let texture = texture_of(frame, draw, images);
+            let is_expected = self.formers.expect(&found.content, texture);
+            let is_planned = !is_expected && self.plan(found.bytes, objects);
             // What is new may be what something animated has become: only then it matters whether it is still drawn.
-            let marks = if is_planned && found.age > 2 { Vec::new() } else { self.mark(&found.content) };
-            surveyed.push(Surveyed {
-                number,
-                operation,
-                found,
-                texture: texture_of(frame, draw, images),
-                marks,
-            });
+            let seen = if is_planned && found.age > 2 { Vec::new() } else { self.see(&found.content) };
+            let known = majority(&seen);
+            // Those of something animated may come again as they were, but are never known for that.
+            let is_known =
+                |object: &u32| !is_expected && objects.get(*object).is_some_and(|object| !object.is_animated);
+            let marks = seen.into_iter().map(|mark| mark.filter(is_known)).collect();
+            surveyed.push(Surveyed { number, operation, found, texture, is_planned, marks, known });
         }
         surveyed
     }
 
-    fn mark(&mut self, content: &Content) -> Vec<Option<u32>> {
+    /// Whether there is a plan for a draw of these bytes, and nothing in it is animated now.
+    fn plan(&mut self, bytes: u64, objects: &Objects) -> bool {
         let now = self.frame;
-        let mark = |key: &u64| {
+        let is_animated = |stretch: &Stretch| match stretch.known {
+            Known::Object(object) => objects.get(object).is_none_or(|object| object.is_animated),
+            _ => true,
+        };
+        let Some((plan, used)) = self.plans.get_mut(&bytes) else { return false };
+        *used = now;
+        !plan.iter().any(is_animated)
+    }
+
+    /// The object that each triangle belonged to so far. They are drawn now.
+    fn see(&mut self, content: &Content) -> Vec<Option<u32>> {
+        let now = self.frame;
+        let see = |key: &u64| {
             let seen = self.triangles.get_mut(key)?;
             seen.last = now;
             Some(seen.object)
         };
-        content.keys.iter().map(mark).collect()
+        content.keys.iter().map(see).collect()
+    }
+
+    /// Cuts all draws that have fresh triangles, and finds what these were before.
+    fn parts(&mut self, frame: &Frame, surveyed: &[Surveyed], objects: &Objects) -> Vec<Parts> {
+        let is_planned =
+            |s: &Surveyed| self.plans.contains_key(&s.found.bytes) || s.marks.iter().all(Option::is_some);
+        let mut parts: Vec<Parts> = Vec::with_capacity(surveyed.len());
+        for surveyed in surveyed {
+            let draw = match frame.operations.get(surveyed.operation) {
+                Some(Operation::Draw(draw)) if !is_planned(surveyed) => draw,
+                _ => {
+                    parts.push(Parts::new());
+                    continue;
+                }
+            };
+            let whole = &surveyed.found.content;
+            let fresh = |&(first, count): &(u32, u32)| {
+                let marks = &surveyed.marks[first as usize..(first + count) as usize];
+                marks.iter().any(Option::is_none).then(|| Fresh {
+                    first,
+                    count,
+                    content: match count == whole.triangles {
+                        true => Some(whole.clone()),
+                        false => Content::of(frame, draw, first, count).map(Arc::new),
+                    },
+                    former: None,
+                })
+            };
+            let segments = segments(frame, draw, &surveyed.marks);
+            parts.push(segments.iter().map(|segment| (segment.0, segment.1, fresh(segment))).collect());
+        }
+        let fresh = parts.iter_mut().zip(surveyed).flat_map(|(parts, surveyed)| {
+            let fresh = parts.iter_mut().filter_map(|(_, _, fresh)| fresh.as_mut());
+            fresh.filter_map(|fresh| Some((fresh.content.as_deref()?, surveyed.texture, &mut fresh.former)))
+        });
+        let (triangles, now) = (&self.triangles, self.frame);
+        self.formers.take(fresh.collect(), |key| {
+            let drawn = triangles.get(&key).filter(|seen| seen.last == now);
+            drawn.is_some_and(|seen| objects.get(seen.object).is_none_or(|object| !object.is_animated))
+        });
+        parts
     }
 
     fn stretches(
@@ -193,77 +283,87 @@ impl Shapes {
         frame: &Frame,
         draw: &Draw,
         surveyed: &Surveyed,
+        parts: Parts,
         objects: &mut Objects,
     ) -> Vec<Stretch> {
         let (content, marks) = (&surveyed.found.content, &surveyed.marks);
-        let whole = |known| vec![Stretch { first: 0, count: content.triangles, known }];
         if content.keys.is_empty() {
-            return whole(Known::Mesh);
+            return vec![Stretch { first: 0, count: content.triangles, known: Known::Mesh }];
         }
-        let now = self.frame;
-        if let Some((plan, used)) = self.plans.get_mut(&surveyed.found.bytes) {
-            *used = now;
+        if let Some((plan, _)) = self.plans.get(&surveyed.found.bytes).filter(|_| surveyed.is_planned) {
             return plan.clone();
         }
-        let is_new = |mark: &Option<u32>| mark.is_none();
         let mut stretches = Vec::new();
-        if !marks.iter().any(is_new) {
-            for (triangle, mark) in marks.iter().enumerate() {
-                push(&mut stretches, triangle as u32, 1, Known::Object(mark.unwrap_or(0)));
-            }
+        if parts.is_empty() {
+            push_known(&mut stretches, 0, marks);
             merge(&mut stretches, content.triangles);
-            self.plans.insert(surveyed.found.bytes, (stretches.clone(), now));
+            self.plans.insert(surveyed.found.bytes, (stretches.clone(), self.frame));
             return stretches;
         }
         let mut home = majority(marks);
-        for (first, count) in segments(frame, draw, marks) {
-            let part = &marks[first as usize..(first + count) as usize];
-            if !part.iter().any(is_new) {
-                for (k, mark) in part.iter().enumerate() {
-                    push(&mut stretches, first + k as u32, 1, Known::Object(mark.unwrap_or(0)));
+        // A few large parts are things; many are how a program sends its world.
+        let are_things = parts.len() <= MOST_THINGS;
+        for (first, count, fresh) in parts {
+            match fresh {
+                Some(fresh) => {
+                    let own = are_things && count > SPRITE;
+                    let known = self.fresh(frame, draw, surveyed, fresh, objects, &mut home, own);
+                    push(&mut stretches, first, count, known);
                 }
-                continue;
+                None => push_known(&mut stretches, first, &marks[first as usize..(first + count) as usize]),
             }
-            let known = self.new_triangles(frame, draw, surveyed, (first, count), objects, &mut home);
-            push(&mut stretches, first, count, known);
         }
         merge(&mut stretches, content.triangles);
         stretches
     }
 
-    /// What new triangles belong to: what they were before if they moved, else the object of those around them.
-    fn new_triangles(
+    /// What fresh triangles belong to: what they were before if they moved; else they are a thing of their own, or belong to
+    /// the object of those around them.
+    #[expect(clippy::too_many_arguments, reason = "one step of `stretches`, apart to be read")]
+    fn fresh(
         &mut self,
         frame: &Frame,
         draw: &Draw,
         surveyed: &Surveyed,
-        (first, count): (u32, u32),
+        fresh: Fresh,
         objects: &mut Objects,
         home: &mut Option<u32>,
+        is_own: bool,
     ) -> Known {
-        let texture = surveyed.texture;
+        let Fresh { first, count, content, former } = fresh;
+        let (texture, now) = (surveyed.texture, self.frame);
+        let before = former.as_ref().and_then(|former| former.object);
+        let before = before.or(surveyed.known.filter(|_| count == surveyed.found.content.triangles));
         let whole = &surveyed.found.content;
-        let part = match count == whole.triangles {
-            true => Some(whole.clone()),
-            false => Content::of(frame, draw, first, count).map(Arc::new),
-        };
-        if let Some(part) = part {
-            let (triangles, now) = (&self.triangles, self.frame);
-            let is_drawn = |key: u64| triangles.get(&key).is_some_and(|seen| seen.last == now);
-            let former = self.formers.take(&part, texture, is_drawn);
+        if let Some(part) = &content {
             let cut = part_of(draw, first, count);
-            if self.formers.note((frame, &cut), &part, texture, former.as_ref(), now) {
-                let known = former.as_ref().and_then(|former| former.object);
+            let counts = self.formers.note((frame, &cut), part, texture, former.as_ref(), now);
+            let has_settled = former.as_ref().is_some_and(|former| former.has_settled(part));
+            let is_sprite = count <= SPRITE && self.sprites.contains_key(&texture);
+            let may_move = former.as_ref().is_none_or(|former| !former.rests_at(part));
+            if (counts && !has_settled) || (is_sprite && may_move) {
+                let mut known = || before.unwrap_or_else(|| objects.add(part, texture));
                 let object = match count {
-                    0..=SPRITE => *self.sprites.entry(texture).or_insert_with(|| objects.add(&part, texture)),
-                    _ => known.unwrap_or_else(|| objects.add(&part, texture)),
+                    0..=SPRITE => *self.sprites.entry(texture).or_insert_with(known),
+                    _ => known(),
                 };
-                self.formers.assign(&part, texture, object);
+                self.formers.assign(part, texture, object);
+                objects.set_animated(object, true);
                 return Known::Animated(object, former.map(|former| former.corners).unwrap_or_default());
             }
         }
-        let object = *home.get_or_insert_with(|| objects.add(whole, texture));
-        let seen = Seen { object, first: self.frame, last: self.frame };
+        if let Some(object) = before {
+            objects.set_animated(object, false);
+        }
+        let object = match content.as_ref().filter(|_| is_own) {
+            _ if before.is_some() => before.unwrap_or(0),
+            Some(part) => objects.add(part, texture),
+            None => *home.get_or_insert_with(|| objects.add(whole, texture)),
+        };
+        if let Some(part) = &content {
+            self.formers.assign(part, texture, object);
+        }
+        let seen = Seen { object, first: now, last: now };
         for &key in &whole.keys[first as usize..(first + count) as usize] {
             self.triangles.entry(key).or_insert(seen);
         }
@@ -311,6 +411,13 @@ fn segments(frame: &Frame, draw: &Draw, marks: &[Option<u32>]) -> Vec<(u32, u32)
         .map(|end| (std::mem::replace(&mut start, end), end))
         .map(|(s, e)| (s, e - s))
         .collect()
+}
+
+/// Adds triangles all of which are known.
+fn push_known(stretches: &mut Vec<Stretch>, first: u32, marks: &[Option<u32>]) {
+    for (triangle, mark) in (first..).zip(marks) {
+        push(stretches, triangle, 1, Known::Object(mark.unwrap_or(0)));
+    }
 }
 
 /// Adds a stretch, to the one before where both belong to the same.

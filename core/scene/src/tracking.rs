@@ -18,7 +18,7 @@ const BASE_TRUSTED: u32 = 3;
 /// How much more than what is known what is new must reach for the world to be another.
 const ANOTHER: f64 = 4.0;
 /// How far an object goes in a frame, in its own extents: hardly, as anything may, and as what moves may.
-const AT: f64 = 0.02;
+const AT: f64 = 0.05;
 const NEAR: f64 = 1.0;
 const FAR: f64 = 8.0;
 /// Objects of the same content that a draw is compared with.
@@ -96,27 +96,22 @@ impl Tracker {
         tracks
     }
 
-    /// Pairs draws with objects, as seen under a view.
+    /// Pairs draws with objects, as seen under a view: first those that are where they must be, then the others.
     fn pair(&self, claims: &mut [Claim], sight: &Sight) {
-        let mut taken: HashMap<u32, DMat4> = HashMap::new();
+        let mut taken = Taken::default();
         let mut cursors: HashMap<(u64, u32), usize> = HashMap::new();
-        for claim in claims {
-            let eye = claim.eye;
-            let is_free = |object: &u32| taken.get(object).is_none_or(|other| *other == eye);
-            let content = &claim.piece.content;
-            claim.object = match &claim.piece.known {
-                Known::Animated(object, _) => Some(*object),
-                Known::Object(object) => {
-                    let cursor = cursors.entry((content.positions, content.triangles)).or_default();
-                    self.nearest(claim, Some(*object), sight, is_free, cursor)
-                }
-                Known::Mesh => {
-                    let cursor = cursors.entry((content.positions, content.triangles)).or_default();
-                    self.nearest(claim, None, sight, is_free, cursor)
-                }
-            };
-            if let Some(object) = claim.object {
-                taken.entry(object).or_insert(eye);
+        for is_last in [false, true] {
+            for claim in claims.iter_mut().filter(|claim| !is_last || claim.object.is_none()) {
+                let content = &claim.piece.content;
+                let cursor = cursors.entry((content.positions, content.triangles)).or_default();
+                claim.object = match claim.piece.known {
+                    Known::Animated(object, _) => Some(object),
+                    Known::Object(object) => {
+                        self.nearest(claim, Some(object), sight, &taken, cursor, is_last)
+                    }
+                    Known::Mesh => self.nearest(claim, None, sight, &taken, cursor, is_last),
+                };
+                taken.add(claim.object, claim.eye);
             }
         }
     }
@@ -128,36 +123,43 @@ impl Tracker {
         claim: &Claim,
         own: Option<u32>,
         sight: &Sight,
-        is_free: impl Fn(&u32) -> bool,
+        taken: &Taken,
         cursor: &mut usize,
+        is_last: bool,
     ) -> Option<u32> {
         let content = &claim.piece.content;
         let alike = self.objects.of_content(content);
         let place = sight.world_from_eye * claim.eye;
         let (centre, extent) = (content.centre.as_dvec3(), f64::from(content.extent) * scale_of(place));
         let centre_now = place.transform_point3(centre);
-        let count = alike.len();
-        let in_order = (0..count.min(COMPARED)).map(|step| (*cursor + step) % count);
+        let (start, count) = (*cursor, alike.len());
+        let in_order = (0..count.min(COMPARED)).map(|step| (start + step) % count);
+        let in_order = in_order.map(|at| (at + 1, alike[at])).filter(|(_, object)| Some(*object) != own);
         let mut best: Option<(f64, u32)> = None;
-        let start = *cursor;
-        for (next, object) in
-            own.map(|own| (start, own)).into_iter().chain(in_order.map(|at| (at + 1, alike[at])))
-        {
-            let Some(known) = self.objects.get(object).filter(|_| is_free(&object)) else { continue };
-            let away = match known.model {
-                Some(model) => model.transform_point3(centre).distance(centre_now),
-                None => f64::MAX,
-            };
+        for (next, object) in own.map(|own| (start, own)).into_iter().chain(in_order) {
+            if taken.has(object, claim.eye) {
+                continue;
+            }
+            let Some(known) = self.objects.get(object) else { continue };
+            let away =
+                self.expected(known, centre).map_or(f64::MAX, |expected| expected.distance(centre_now));
+            if away <= AT * extent {
+                *cursor = next;
+                return Some(object);
+            }
             if best.is_none_or(|(least, _)| away < least) {
                 best = Some((away, object));
             }
-            if away <= AT * extent {
-                *cursor = next;
-                break;
-            }
         }
-        let (away, object) = best?;
+        let (away, object) = best.filter(|_| is_last)?;
         (sight.is_rough || self.may_be(object, away, extent, centre, sight)).then_some(object)
+    }
+
+    /// Where a point of an object is if it goes on as before, world space.
+    fn expected(&self, object: &Object, point: DVec3) -> Option<DVec3> {
+        let now = object.model?.transform_point3(point);
+        let before = object.before.filter(|_| object.seen == self.frame.wrapping_sub(1));
+        Some(before.map_or(now, |before| 2.0 * now - before.transform_point3(point)))
     }
 
     /// Whether an object may have gone so far. What stands still does not go, unless it is missed where it was.
@@ -293,6 +295,23 @@ fn scale_of(matrix: DMat4) -> f64 {
 fn snapped(model: DMat4) -> DMat4 {
     let reach = model.w_axis.truncate().length();
     if reach < 1e-4 && model.abs_diff_eq(DMat4::IDENTITY, 2e-6) { DMat4::IDENTITY } else { model }
+}
+
+/// Objects that are taken, and the matrix under which each is seen.
+#[derive(Default)]
+struct Taken(HashMap<u32, DMat4>);
+
+impl Taken {
+    fn add(&mut self, object: Option<u32>, eye: DMat4) {
+        if let Some(object) = object {
+            self.0.entry(object).or_insert(eye);
+        }
+    }
+
+    /// Whether an object is somewhere else. Parts of one may be drawn apart, under the same matrix.
+    fn has(&self, object: u32, eye: DMat4) -> bool {
+        self.0.get(&object).is_some_and(|other| *other != eye)
+    }
 }
 
 /// What is in sight.

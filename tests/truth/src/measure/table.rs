@@ -6,7 +6,8 @@ use std::io::{self, Write};
 use super::Report;
 
 /// Writes a line a style and class: how many settled triangles there are, precision and recall in percent, the recall of
-/// young ones; and a line a style on camera, lights and identities.
+/// young ones; a line a style on camera, lights and identities (switches of chances); and one on where the static world is on
+/// screen and on what is traced though it should not be.
 ///
 /// # Errors
 /// Those of `out`.
@@ -54,6 +55,29 @@ pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
             camera.invented,
             lights,
             switches,
+        )?;
+    }
+    writeln!(out)?;
+    writeln!(
+        out,
+        "{:<18} {:>7} {:>9} {:>9} {:>9}   traced: {:>9} {:>11} {:>7} {:>10}",
+        "style", "stable", "of frames", "pixels", "worst", "interface", "translucent", "others", "undecided"
+    )?;
+    for report in reports {
+        let stability = report.stability.unwrap_or_default();
+        let traced = report.traced;
+        writeln!(
+            out,
+            "{:<18} {:>7} {:>9} {:>9.3} {:>9.3}           {:>9} {:>11} {:>7} {:>10}",
+            report.style,
+            percent((stability.frames > 0).then_some(stability.stable)),
+            stability.frames,
+            stability.median,
+            stability.worst,
+            traced.interface,
+            traced.translucent,
+            traced.others,
+            traced.undecided,
         )?;
     }
     Ok(())

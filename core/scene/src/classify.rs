@@ -2,7 +2,6 @@
 
 use afterglow_gl::frame::{CombineFunction, EnvMode, Format, Frame, Slot, StencilOp, Topology, UnitWords};
 use glam::{DMat3, DMat4, DVec3, Mat4};
-use hashbrown::HashSet;
 
 use crate::draws::{DepthUse, DrawFacts, TransformFacts};
 use crate::geometry::{has_varying_colors, mean_color};
@@ -11,13 +10,16 @@ use crate::objects::Motion;
 use crate::opacity::Mixing;
 use crate::shapes::Piece;
 use crate::surfaces::Surfaces;
-use crate::tracking::Track;
+use crate::tracking::{Track, Tracker};
 use crate::types::{Class, Verdict};
 use crate::views::{Views, share_of_drawable};
 use crate::world::{Stage, World};
 
 /// Share of the drawable below which a viewport is small.
 const SMALL: f64 = 0.15;
+
+/// One in so many triangles of a view that stand still in the world make it a view of the world.
+const OF_WORLD: u64 = 8;
 
 /// Class and reason.
 type Finding = (Class, &'static str);
@@ -48,6 +50,7 @@ pub fn classify<'a>(
     draws: &'a [DrawFacts<'a>],
     pieces: &[Option<Piece>],
     tracks: &'a [Option<Track>],
+    tracker: &Tracker,
 ) -> Vec<Verdict> {
     let candidates = draws
         .iter()
@@ -61,7 +64,7 @@ pub fn classify<'a>(
         world,
         surfaces,
         has_mirrors: draws.iter().any(|facts| world.mirrors(facts, transforms)),
-        shown: shown(views, world, draws, pieces),
+        shown: shown(views, draws, pieces, tracker),
         track: None,
         base: None,
     };
@@ -71,24 +74,21 @@ pub fn classify<'a>(
     verdicts
 }
 
-/// Triangles of a view, and those of them that the world's view shows as well.
+/// Triangles of a view, and those of them that are known to stand still in the world.
 #[derive(Debug, Clone, Copy, Default)]
 struct Shown {
     all: u64,
     of_world: u64,
 }
 
-fn shown(views: &Views, world: &World, draws: &[DrawFacts], pieces: &[Option<Piece>]) -> Vec<Shown> {
+fn shown(views: &Views, draws: &[DrawFacts], pieces: &[Option<Piece>], tracker: &Tracker) -> Vec<Shown> {
     let mut shown = vec![Shown::default(); views.views.len()];
     if views.views.len() > 1 {
-        let drawn = || draws.iter().zip(pieces).filter_map(|(facts, piece)| Some((facts, piece.as_ref()?)));
-        let of_world =
-            |(facts, piece): (&DrawFacts, &Piece)| (facts.place.view == world.place).then(|| piece.subject());
-        let of_world: HashSet<u64> = drawn().filter_map(of_world).collect();
-        for (facts, piece) in drawn() {
+        for (facts, piece) in draws.iter().zip(pieces) {
+            let Some(piece) = piece else { continue };
             let view = &mut shown[facts.place.view];
             view.all += u64::from(facts.triangles);
-            view.of_world += if of_world.contains(&piece.subject()) { u64::from(facts.triangles) } else { 0 };
+            view.of_world += if tracker.stands_still(piece) { u64::from(facts.triangles) } else { 0 };
         }
     }
     shown
@@ -191,7 +191,8 @@ impl<'a> Classifier<'a> {
     fn is_icon(&self, facts: &DrawFacts) -> bool {
         let rect = self.views.views[facts.place.view].rect;
         let is_small = share_of_drawable(rect, self.frame.size) < SMALL;
-        let of_world = self.shown.get(facts.place.view).is_some_and(|shown| 2 * shown.of_world > shown.all);
+        let of_world =
+            self.shown.get(facts.place.view).is_some_and(|shown| OF_WORLD * shown.of_world > shown.all);
         is_small && self.is_late(facts) && !of_world
     }
 
@@ -329,12 +330,8 @@ impl<'a> Classifier<'a> {
             return None;
         }
         let (modelview, mixing) = (self.transform(facts).modelview_hash, facts.mixing);
-        // Stains (with polygon offset) lie on surfaces, but are made of triangles of their own.
-        let in_other_batches =
-            facts.depth == DepthUse::Equal || (mixing == Mixing::Multiply && !self.is_biased(facts));
         self.base = self.surfaces.same(self.frame, facts.draw, modelview);
-        let again = self.base.is_some()
-            || (in_other_batches && self.surfaces.has_triangles(self.frame, facts.draw, modelview));
+        let again = self.base.is_some() || self.surfaces.has_triangles(self.frame, facts.draw, modelview);
         again.then_some(match mixing {
             Mixing::Multiply => (Class::Layer, "multiplies a surface drawn before"),
             Mixing::Add => (Class::Layer, "adds to a surface drawn before"),
@@ -353,8 +350,8 @@ impl<'a> Classifier<'a> {
             Mixing::Opaque | Mixing::CutOut if facts.depth == DepthUse::TestWrite => return None,
             _ if facts.depth == DepthUse::Equal => (Class::Undecided, "equal depth"),
             Mixing::Opaque => (Class::Undecided, "opaque, writes no depth"),
-            Mixing::Multiply if is_biased => (Class::Translucent, "stain on a surface"),
-            _ if is_biased => (Class::Translucent, "decal on a surface"),
+            Mixing::Multiply if is_biased => (Class::Layer, "stain on a surface"),
+            _ if is_biased => (Class::Layer, "decal on a surface"),
             Mixing::Multiply => (Class::Translucent, "multiplies what is behind"),
             Mixing::Add => (Class::Translucent, "adds to what is behind"),
             Mixing::CutOut | Mixing::Blend => (Class::Translucent, "blended"),

@@ -5,16 +5,20 @@
 
 use afterglow_gl::frame::{Draw, Frame};
 use glam::Vec3;
-use hashbrown::HashMap;
+use hashbrown::{HashMap, HashSet};
 
 use crate::content::{Content, corners};
 
 /// Stretches that are noted in a frame, at most.
 const MOST: usize = 1 << 14;
+/// Kinds that are kept, at most.
+const MOST_KINDS: usize = 1 << 14;
 /// Stretches of one kind that a fresh one is compared with, at most.
 const MOST_COMPARED: usize = 64;
 /// Triangles up to which a stretch is a sprite: too simple to be known by its topology from afar.
 pub const SPRITE: u32 = 4;
+/// Triangles from which on a stretch has a shape by which it is known.
+const SHAPE: u32 = 8;
 /// Frames for which what was animated is waited for.
 const AWAITED: u32 = 30;
 /// Frames after which what was animated and rests is a thing like any other.
@@ -55,11 +59,26 @@ impl Former {
 /// Topology, texture, number of triangles.
 type Kind = (u64, u64, u32);
 
+/// Whether lengths among corners have changed: then it was not moved as a whole.
+fn has_deformed(before: &[Vec3], now: &[Vec3]) -> bool {
+    let far = before.len() / 2;
+    let lengths = |corners: &[Vec3], i: usize| {
+        [corners[i].distance(corners[i + 1]), corners[i].distance(corners[(i + far) % corners.len()])]
+    };
+    let changes = |i: usize| {
+        let [a, b] = [lengths(before, i), lengths(now, i)];
+        a.iter().zip(&b).any(|(a, b)| (a - b).abs() > 1e-3 * a.max(*b))
+    };
+    before.len() == now.len() && (0..before.len() - before.len().min(1)).step_by(3).any(changes)
+}
+
 /// The stretches of the frame before, and those of this one.
 #[derive(Debug, Default)]
 pub struct Formers {
     before: HashMap<Kind, Vec<Former>>,
     now: HashMap<Kind, Vec<Former>>,
+    /// What was animated.
+    kinds: HashSet<Kind>,
     noted: usize,
     frame: u32,
 }
@@ -78,11 +97,9 @@ impl Formers {
         }
     }
 
-    /// Whether something animated of the same kind is waited for.
+    /// Whether what is of the same kind was animated: a model of which there are several, in other poses.
     pub fn expect(&self, content: &Content, texture: u64) -> bool {
-        let formers = self.before.get(&(content.topology, texture, content.triangles));
-        let is_animated = |former: &Former| former.streak >= STREAK;
-        content.triangles > SPRITE && formers.is_some_and(|formers| formers.iter().any(is_animated))
+        content.triangles > SPRITE && self.kinds.contains(&(content.topology, texture, content.triangles))
     }
 
     /// Finds what fresh triangles were before, the nearest first. `is_drawn` tells whether a triangle is in this frame.
@@ -139,7 +156,11 @@ impl Formers {
         before: Option<&Former>,
         now: u32,
     ) -> bool {
-        let streak = before.map_or(0, |former| former.streak + 1);
+        let corners = corners(frame, draw);
+        let deforms = before
+            .is_some_and(|former| content.triangles >= SHAPE && has_deformed(&former.corners, &corners));
+        // What changed its shape has not come into view as something else.
+        let streak = before.map_or(0, |former| former.streak + if deforms { STREAK } else { 1 });
         if self.noted < MOST {
             self.noted += 1;
             let kind = (content.topology, texture, content.triangles);
@@ -157,10 +178,14 @@ impl Formers {
                     _ => (0, content.positions),
                 },
                 object: before.and_then(|former| former.object),
-                corners: corners(frame, draw),
+                corners,
             });
         }
-        streak >= STREAK
+        let counts = streak >= STREAK;
+        if counts && self.kinds.len() < MOST_KINDS {
+            self.kinds.insert((content.topology, texture, content.triangles));
+        }
+        counts
     }
 
     /// Says what the stretch that was noted last belongs to.

@@ -1,6 +1,6 @@
 //! The objects of a world: where each was last, and what its motion says of it.
 
-use glam::DMat4;
+use glam::{DMat4, Vec3};
 use hashbrown::HashMap;
 
 use crate::content::Content;
@@ -47,8 +47,10 @@ pub enum Step {
 pub struct Object {
     /// Its name, the same in all frames and all runs.
     pub id: u64,
-    /// Content of its texture.
-    pub texture: u64,
+    /// Content, middle and extent of its mesh.
+    content: u64,
+    centre: Vec3,
+    extent: f32,
     /// Object to world space when it was seen last; where it stands still, when it was seen first. Nothing before that.
     pub model: Option<DMat4>,
     /// Object to world space in the frame before that, if it was there.
@@ -67,9 +69,20 @@ pub struct Object {
     attached: bool,
 }
 
+/// The cube of the world, as large as a mesh, that its middle is in.
+fn cube(centre: Vec3, extent: f32, model: DMat4) -> [i32; 3] {
+    let place = model.transform_point3(centre.as_dvec3()) / f64::from(extent.max(1e-6));
+    // Numbers that are too large end at the largest.
+    place.floor().as_ivec3().to_array()
+}
+
 impl Object {
+    fn cube(&self, model: DMat4) -> [i32; 3] {
+        cube(self.centre, self.extent, model)
+    }
+
     /// Takes note of what it did. `camera_moves` tells whether that says anything.
-    pub fn step(&mut self, step: Step, camera_moves: bool, frame: u32) {
+    pub fn step(&mut self, step: Step, camera_moves: bool, has_jumped: bool, frame: u32) {
         let count = if self.steps.0 == step { self.steps.1.saturating_add(1) } else { 1 };
         self.steps = (step, count);
         match step {
@@ -78,6 +91,7 @@ impl Object {
                     (self.carried, self.attached) = (false, false);
                 }
             }
+            Step::Moved if has_jumped => self.moved = Some(frame),
             _ if count < EVIDENCE => {}
             Step::Moved => {
                 (self.carried, self.attached) = (false, false);
@@ -116,6 +130,8 @@ impl Object {
 pub struct Objects {
     objects: Vec<Object>,
     by_content: HashMap<(u64, u32), Vec<u32>>,
+    /// Where objects are of which there are many: content, and a cube of the world of about their size.
+    places: HashMap<(u64, [i32; 3]), Vec<u32>>,
     /// How many objects have begun with the same content and texture: part of their names.
     named: HashMap<u64, u64>,
 }
@@ -135,7 +151,9 @@ impl Objects {
         let number = self.objects.len() as u32;
         self.objects.push(Object {
             id: name.max(1),
-            texture,
+            content: content.positions,
+            centre: content.centre,
+            extent: content.extent,
             model: None,
             before: None,
             eye: DMat4::IDENTITY,
@@ -165,6 +183,30 @@ impl Objects {
         self.objects.get_mut(number as usize)
     }
 
+    /// Puts an object at a place.
+    pub fn put(&mut self, number: u32, model: DMat4) {
+        let Some(object) = self.objects.get_mut(number as usize) else { return };
+        let content = object.content;
+        let former = object.model.replace(model).map(|model| object.cube(model));
+        let now = object.cube(model);
+        if former == Some(now) {
+            return;
+        }
+        if let Some(others) = former.and_then(|cube| self.places.get_mut(&(content, cube))) {
+            others.retain(|other| *other != number);
+        }
+        self.places.entry((content, now)).or_default().push(number);
+    }
+
+    /// Objects with the same content as one that would be at `model`, that are near.
+    pub fn near(&self, content: &Content, model: DMat4) -> impl Iterator<Item = u32> {
+        let [x, y, z] = cube(content.centre, content.extent, model);
+        let around = (0..27).map(move |i: i32| {
+            [x.wrapping_add(i % 3 - 1), y.wrapping_add(i / 3 % 3 - 1), z.wrapping_add(i / 9 - 1)]
+        });
+        around.flat_map(|cube| self.places.get(&(content.positions, cube)).into_iter().flatten().copied())
+    }
+
     /// Says whether the vertices of an object move.
     pub fn set_animated(&mut self, number: u32, is_animated: bool) {
         if let Some(object) = self.objects.get_mut(number as usize) {
@@ -179,6 +221,7 @@ impl Objects {
 
     /// Forgets where all objects are: the world is another. Names stay.
     pub fn forget_places(&mut self) {
+        self.places.clear();
         for object in &mut self.objects {
             (object.model, object.before, object.seen) = (None, None, 0);
             (object.steps, object.moved) = ((Step::Stood, 0), None);
@@ -191,5 +234,6 @@ impl Objects {
         self.objects.clear();
         self.by_content.clear();
         self.named.clear();
+        self.places.clear();
     }
 }

@@ -63,7 +63,7 @@ impl Recovery {
             return flat_scene(&draws);
         };
         let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
-        let verdicts = classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks);
+        let verdicts = classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks, &self.tracker);
         let background = views.views[world.place].background;
         let deformed = deformed(&draws, &verdicts, tracks);
         Scene { deformed, ..self.light(frame, &world, &draws, &transforms, verdicts, background) }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use afterglow_gl::frame::{Draw, Frame, Operation, Topology, VertexSource};
 use glam::Vec3;
-use hashbrown::HashMap;
+use hashbrown::{HashMap, HashSet};
 
 use crate::content::{Content, Contents, Found};
 use crate::formers::{Former, Formers, SPRITE};
@@ -49,16 +49,6 @@ pub struct Piece {
     pub known: Known,
 }
 
-impl Piece {
-    /// Names what the piece shows, wherever it is drawn.
-    pub fn subject(&self) -> u64 {
-        match &self.known {
-            Known::Object(object) | Known::Animated(object, _) => u64::from(*object),
-            Known::Mesh => self.content.positions,
-        }
-    }
-}
-
 /// A triangle's object, and the frames in which it was seen first and last.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
@@ -85,6 +75,8 @@ pub struct Shapes {
     plans: HashMap<u64, (Vec<Stretch>, u32)>,
     /// What sprites of a texture belong to.
     sprites: HashMap<u64, u32>,
+    /// Objects that are animated in this frame.
+    animated: HashSet<u32>,
     frame: u32,
 }
 
@@ -166,6 +158,7 @@ impl Shapes {
     fn next_frame(&mut self) {
         self.frame = self.frame.wrapping_add(1);
         self.contents.next_frame();
+        self.animated.clear();
         self.formers.next_frame(self.frame);
         let now = self.frame;
         if now.is_multiple_of(PLANNED) {
@@ -341,7 +334,10 @@ impl Shapes {
             let has_settled = former.as_ref().is_some_and(|former| former.has_settled(part));
             let is_sprite = count <= SPRITE && self.sprites.contains_key(&texture);
             let may_move = former.as_ref().is_none_or(|former| !former.rests_at(part));
-            if (counts && !has_settled) || (is_sprite && may_move) {
+            let is_animated = (counts || self.formers.expect(part, texture)) && !has_settled;
+            if is_animated || (is_sprite && may_move) {
+                // Several may be in a pose that one of them was in.
+                let before = before.filter(|object| !self.animated.contains(object));
                 let mut known = || before.unwrap_or_else(|| objects.add(part, texture));
                 let object = match count {
                     0..=SPRITE => *self.sprites.entry(texture).or_insert_with(known),
@@ -349,6 +345,7 @@ impl Shapes {
                 };
                 self.formers.assign(part, texture, object);
                 objects.set_animated(object, true);
+                self.animated.insert(object);
                 return Known::Animated(object, former.map(|former| former.corners).unwrap_or_default());
             }
         }

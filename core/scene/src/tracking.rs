@@ -22,7 +22,7 @@ const AT: f64 = 0.05;
 const NEAR: f64 = 1.0;
 const FAR: f64 = 8.0;
 /// Objects of the same content that a draw is compared with.
-const COMPARED: usize = 256;
+const COMPARED: usize = 32;
 
 /// What is known of a draw that was followed.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,6 +96,19 @@ impl Tracker {
         tracks
     }
 
+    /// Whether a piece is known to stand still in the world, wherever it is drawn.
+    pub fn stands_still(&self, piece: &Piece) -> bool {
+        let stands = |object: &u32| {
+            let object = self.objects.get(*object);
+            object.is_some_and(|object| object.model.is_some() && object.motion(self.frame) == Motion::Still)
+        };
+        match &piece.known {
+            Known::Object(object) => stands(object),
+            Known::Mesh => self.objects.of_content(&piece.content).iter().any(stands),
+            Known::Animated(..) => false,
+        }
+    }
+
     /// Pairs draws with objects, as seen under a view: first those that are where they must be, then the others.
     fn pair(&self, claims: &mut [Claim], sight: &Sight) {
         let mut taken = Taken::default();
@@ -134,9 +147,11 @@ impl Tracker {
         let centre_now = place.transform_point3(centre);
         let (start, count) = (*cursor, alike.len());
         let in_order = (0..count.min(COMPARED)).map(|step| (start + step) % count);
-        let in_order = in_order.map(|at| (at + 1, alike[at])).filter(|(_, object)| Some(*object) != own);
+        let in_order = in_order.map(|at| (at + 1, alike[at]));
+        let near = (count > COMPARED).then(|| self.objects.near(content, place)).into_iter().flatten();
+        let first = own.into_iter().chain(near).map(|object| (start, object));
         let mut best: Option<(f64, u32)> = None;
-        for (next, object) in own.map(|own| (start, own)).into_iter().chain(in_order) {
+        for (next, object) in first.chain(in_order) {
             if taken.has(object, claim.eye) {
                 continue;
             }
@@ -241,19 +256,26 @@ impl Tracker {
     /// Takes note of what an object did.
     fn step(&mut self, claim: &Claim, camera: &CameraStep) -> Option<Track> {
         let frame = self.frame;
-        let object = self.objects.get_mut(claim.object?)?;
+        let number = claim.object?;
+        let object = self.objects.get_mut(number)?;
         let now = snapped(camera.world_from_eye * claim.eye);
         let former = object.model.filter(|_| object.seen != 0);
         let was_there = object.seen == frame.wrapping_sub(1);
         let again = object.seen == frame;
         if let (Some(model), false) = (former, again) {
             let step = camera.step_of(&claim.piece.content.samples, claim.eye, model, object.eye, was_there);
-            object.step(step, camera.moves, frame);
+            let far = f64::from(claim.piece.content.extent) * scale_of(now);
+            let centre = claim.piece.content.centre.as_dvec3();
+            let went = model.transform_point3(centre).distance(now.transform_point3(centre));
+            object.step(step, camera.moves, was_there && went > NEAR * far, frame);
             if step != Step::Stood {
-                object.model = Some(now);
+                self.objects.put(number, now);
             }
+        } else if former.is_none() {
+            self.objects.put(number, now);
         }
-        let model = *object.model.get_or_insert(now);
+        let object = self.objects.get_mut(number)?;
+        let model = object.model?;
         if !again {
             object.before = former.filter(|_| was_there);
         }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use afterglow_truth::measure::{Report, measure, measure_played, play_file, write_table};
+use afterglow_truth::measure::{Report, measure, measure_played, play_file, write_table, write_wrong};
 use afterglow_truth::oracle::{self, ORACLES, Oracle};
 use afterglow_truth::styles::{self, Entry, STYLES};
 use anyhow::Context;
@@ -30,6 +30,9 @@ struct Arguments {
     /// With --oracle: only count its classes in each frame
     #[arg(long, requires = "oracle")]
     counts: bool,
+    /// Also say for what triangles were taken, and why
+    #[arg(long)]
+    wrong: bool,
     /// Also write the figures as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -55,6 +58,9 @@ fn main() -> anyhow::Result<()> {
         return Ok(());
     }
     write_table(&mut out, &reports)?;
+    if arguments.wrong {
+        write_wrong(&mut out, &reports)?;
+    }
     if let Some(path) = &arguments.json {
         let text = serde_json::to_string_pretty(&reports)?;
         fs::write(path, text).with_context(|| path.display().to_string())?;

@@ -53,6 +53,8 @@ pub struct ClassScore {
     pub recall: Option<f64>,
     /// For what settled triangles of the class were taken, where for another: class and number of triangles.
     pub taken_for: BTreeMap<&'static str, u64>,
+    /// The same with the reasons that were given.
+    pub because: BTreeMap<String, u64>,
 }
 
 /// Triangles that are traced though they should be rasterized, and those of which nobody can say.
@@ -89,6 +91,7 @@ pub fn traced(truth: &Truth, observed: &[Observed]) -> TracedScore {
 pub fn score(truth: &Truth, observed: &[Observed]) -> Vec<ClassScore> {
     let (mut settled, mut young) = ([Counts::default(); CLASSES.len()], [Counts::default(); CLASSES.len()]);
     let mut taken_for = vec![BTreeMap::new(); CLASSES.len()];
+    let mut because = vec![BTreeMap::new(); CLASSES.len()];
     let mut ages = Ages::default();
     for (frame, observed) in truth.frames.iter().zip(observed) {
         let decided = observed.beside(frame).filter(|(label, ..)| label.class != Class::Undecided);
@@ -98,6 +101,7 @@ pub fn score(truth: &Truth, observed: &[Observed]) -> Vec<ClassScore> {
             let (told, found) = (class_index(label.class), class_index(run.class));
             if told != found && !is_young {
                 *taken_for[told].entry(CLASSES[found].1).or_default() += count;
+                *because[told].entry(format!("{}: {}", CLASSES[found].1, run.reason)).or_default() += count;
             }
             counts[told].told += count;
             counts[found].found += count;
@@ -114,6 +118,7 @@ pub fn score(truth: &Truth, observed: &[Observed]) -> Vec<ClassScore> {
             precision: settled.precision(),
             recall: settled.recall(),
             taken_for,
+            because: std::mem::take(&mut because[index]),
         }
     };
     let occurs = |c: &Counts| c.told + c.found > 0;

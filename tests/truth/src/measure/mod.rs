@@ -20,7 +20,7 @@ pub use lights::LightScore;
 pub use observe::{Observed, Run};
 pub use play::{Played, play, play_file};
 pub use stability::{Samples, StabilityScore};
-pub use table::write_table;
+pub use table::{write_table, write_wrong};
 
 /// What was measured of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]

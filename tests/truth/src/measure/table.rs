@@ -92,3 +92,18 @@ fn mostly(taken_for: &BTreeMap<&'static str, u64>) -> &'static str {
 fn percent(share: Option<f64>) -> String {
     share.map_or("-".into(), |share| format!("{:.1}", 100.0 * share))
 }
+
+/// Writes for what triangles were taken where for something else, and why.
+///
+/// # Errors
+/// Where `out` cannot be written.
+pub fn write_wrong(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
+    for report in reports {
+        for score in &report.classes {
+            for (taken_for, count) in &score.because {
+                writeln!(out, "{:<18} {:<11} {count:>9} taken for {taken_for}", report.style, score.class)?;
+            }
+        }
+    }
+    Ok(())
+}

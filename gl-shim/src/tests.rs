@@ -239,3 +239,35 @@ fn stubs_are_errors() {
         assert!(stub::calls() >= before + 2);
     });
 }
+
+#[test]
+fn what_is_said_of_a_scene_reaches_the_context() {
+    with_current(|| {
+        let (place, light, mut most) = ([1.0f32, 2.0, 3.0], [1.0f32, 0.5, 0.25], 0);
+        // SAFETY: three numbers each, and room for one.
+        unsafe {
+            glSceneObjectAFTERGLOW(u64::MAX);
+            glSceneClassAFTERGLOW(GL_SCENE_STATIC_AFTERGLOW);
+            glSceneMaterialAFTERGLOW(0.5, 1.0);
+            glSceneEmissionAFTERGLOW(1.0, 2.0, 3.0);
+            glSceneMapAFTERGLOW(GL_SCENE_NORMAL_MAP_AFTERGLOW, 4);
+            glSceneViewAFTERGLOW();
+            glScenePointLightAFTERGLOW(1, place.as_ptr(), light.as_ptr(), 0.5);
+            glSceneSpotLightAFTERGLOW(2, place.as_ptr(), place.as_ptr(), light.as_ptr(), 0.5, 30.0, 1.0);
+            glSceneDirectionalLightAFTERGLOW(3, place.as_ptr(), light.as_ptr(), 0.5);
+            glSceneSkyAFTERGLOW(0.1, 0.2, 0.3);
+            glSceneCutAFTERGLOW();
+            glSceneDefaultsAFTERGLOW();
+            assert_eq!(error(), GL_NO_ERROR);
+            glGetIntegerv(GL_MAX_SCENE_LIGHTS_AFTERGLOW, &mut most);
+            assert_eq!(most, 256);
+            // A null pointer reads as zeros: no direction.
+            glSceneDirectionalLightAFTERGLOW(3, null(), light.as_ptr(), 0.5);
+            assert_eq!(error(), GL_INVALID_VALUE);
+            let extensions = CStr::from_ptr(glGetString(GL_EXTENSIONS).cast()).to_str();
+            assert!(
+                extensions.is_ok_and(|list| list.split(' ').any(|name| name == "GL_AFTERGLOW_scene_hints"))
+            );
+        }
+    });
+}

@@ -224,6 +224,7 @@ impl From<&SceneLight> for Light {
         Light {
             origin: match light.origin {
                 LightOrigin::Gl(number) => format!("GL_LIGHT{number}"),
+                LightOrigin::Program(id) => format!("program {id}"),
                 LightOrigin::Fallback => "fallback".into(),
             },
             to_light: to_light.map(Into::into),

@@ -178,6 +178,18 @@ commands! {
     SampleCoverage = sample_coverage(value: f32, invert: bool) => exec_sample_coverage;
     /// glScale.
     Scale = scale(x: f32, y: f32, z: f32) => exec_scale;
+    /// glSceneClassAFTERGLOW.
+    SceneClass = scene_class(class: u32) => exec_scene_class;
+    /// glSceneDefaultsAFTERGLOW.
+    SceneDefaults = scene_defaults() => exec_scene_defaults;
+    /// glSceneEmissionAFTERGLOW.
+    SceneEmission = scene_emission(red: f32, green: f32, blue: f32) => exec_scene_emission;
+    /// glSceneMapAFTERGLOW.
+    SceneMap = scene_map(map: u32, texture: u32) => exec_scene_map;
+    /// glSceneMaterialAFTERGLOW.
+    SceneMaterial = scene_material(roughness: f32, metallic: f32) => exec_scene_material;
+    /// glSceneObjectAFTERGLOW.
+    SceneObject = scene_object(object: u64) => exec_scene_object;
     /// glScissor.
     Scissor = scissor(x: i32, y: i32, width: i32, height: i32) => exec_scissor;
     /// glShadeModel.

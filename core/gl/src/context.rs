@@ -17,6 +17,7 @@ use crate::pixel::PixelTransfer;
 use crate::pixels::RenderMode;
 use crate::query::ActiveQuery;
 use crate::range_cache::RangeCache;
+use crate::scene_hints::Said;
 use crate::shared::SharedNames;
 use crate::state::State;
 use crate::tables::{Dirty, Tables};
@@ -43,6 +44,7 @@ pub struct Context {
     pub(crate) tables: Tables,
     pub(crate) emitter: Emitter,
     pub(crate) state: State,
+    pub(crate) said: Said,
     pub(crate) matrices: Matrices,
     pub(crate) textures: Textures,
     pub(crate) client: ClientState,
@@ -82,6 +84,7 @@ impl Context {
             tables: Tables::default(),
             emitter: Emitter::default(),
             state: State::default(),
+            said: Said::default(),
             matrices: Matrices::default(),
             textures,
             client: ClientState::default(),

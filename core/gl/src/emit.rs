@@ -260,6 +260,7 @@ impl Context {
             texture_matrices: ids.texture_matrices,
             clip_planes: ids.clip_planes,
             current: ids.current,
+            hint: ids.hint,
         }));
     }
 }

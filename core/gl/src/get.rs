@@ -3,7 +3,7 @@
 use afterglow_api::constants::*;
 
 use crate::context::Context;
-use crate::frame::{CLIP_PLANES, LIGHTS, SLOTS, Slot, TEXTURE_UNITS};
+use crate::frame::{CLIP_PLANES, LIGHTS, SLOTS, SceneHints, Slot, TEXTURE_UNITS};
 use crate::limits;
 use crate::pixel::{Extent, PixelLayout, PixelTarget, PixelTransfer, pack_stencil};
 use crate::state::HINTS;
@@ -134,6 +134,7 @@ impl Context {
         let buffers = &self.output.buffers;
         match pname {
             GL_MAX_LIGHTS => limit(LIGHTS),
+            GL_MAX_SCENE_LIGHTS_AFTERGLOW => limit(SceneHints::MOST_LIGHTS),
             GL_MAX_CLIP_PLANES => limit(CLIP_PLANES),
             GL_MAX_TEXTURE_UNITS | MAX_TEXTURE_COORDS => limit(TEXTURE_UNITS),
             GL_MAX_TEXTURE_SIZE => limit(crate::texture::MAX_SIZE),

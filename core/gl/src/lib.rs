@@ -32,6 +32,7 @@ mod pixels;
 mod query;
 mod range_cache;
 mod read_elsewhere;
+mod scene_hints;
 mod shared;
 mod state;
 mod tables;

@@ -27,6 +27,8 @@ bitflags! {
         const CLIP_PLANES = 512;
         /// Rasterization and what happens to fragments.
         const RASTER = 1024;
+        /// What the program says of draws.
+        const HINT = 2048;
     }
 }
 
@@ -77,6 +79,7 @@ pub struct Ids {
     pub texture_matrices: u32,
     pub clip_planes: u32,
     pub current: u32,
+    pub hint: u32,
 }
 
 impl Default for Tables {
@@ -135,6 +138,9 @@ impl Context {
     fn write_tables(&mut self, kind: Kind) {
         if self.tables.dirty.contains(Dirty::BINDINGS) {
             self.write_bindings();
+            if self.said.has_maps() {
+                self.tables.dirty |= Dirty::HINT;
+            }
         }
         let dirty = self.tables.dirty;
         if dirty.intersects(Dirty::WORDS | Dirty::RASTER) {
@@ -220,6 +226,9 @@ impl Context {
                 |i: usize| Plane { coefficients: self.state.transform.clip_planes[i].map(|v| v as f32) };
             let planes = std::array::from_fn(plane);
             self.tables.ids.clip_planes = push(&mut self.frame.clip_planes, ClipPlanes { planes });
+        }
+        if groups.contains(Dirty::HINT) {
+            self.tables.ids.hint = self.write_hint();
         }
     }
 

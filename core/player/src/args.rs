@@ -126,6 +126,12 @@ pub fn uint(value: &Value) -> Option<u32> {
     value.as_u32()
 }
 
+/// GLuint64.
+#[inline]
+pub fn ulong(value: &Value) -> Option<u64> {
+    value.as_u64()
+}
+
 /// GLint, GLsizei; a number of 32 bits that the tracer took for unsigned wraps.
 #[inline]
 pub fn int(value: &Value) -> Option<i32> {

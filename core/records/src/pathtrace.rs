@@ -39,6 +39,16 @@ shared_struct! {
         pub blend: u32,
         /// The instance mask of rays that start here.
         pub ray_mask: u32,
+        /// Radiance that the program says it gives off, linear RGB; what its map is multiplied with.
+        pub emission: [f32; 3],
+        /// Perceptual roughness that the program says; below 0 where it says none.
+        pub roughness: f32,
+        /// Metallic that it says, with the roughness.
+        pub metallic: f32,
+        /// Maps that the program names, as `textures` has them, or [`NO_MAP`].
+        pub normal_map: u32,
+        pub metallic_roughness_map: u32,
+        pub emission_map: u32,
     }
 }
 
@@ -270,6 +280,9 @@ pub const MEMBER_SHIFT: u32 = 20;
 
 /// Beside a surface's number in the push constants of its draw: its vertices' colours are light and not paint.
 pub const WHITE_ALBEDO: u32 = 1 << 31;
+
+/// Of a [`SurfaceDraw`]: the program names no such map.
+pub const NO_MAP: u32 = u32::MAX;
 
 /// Instances that never move.
 pub const MASK_STATIC: u32 = 1;

@@ -189,5 +189,6 @@ fn full_screen() -> Draw {
         texture_matrices: 0,
         clip_planes: 0,
         current: 0,
+        hint: 0,
     }
 }

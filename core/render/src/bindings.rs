@@ -1,6 +1,6 @@
 //! A frame's texture bindings as push constants name them.
 
-use afterglow_gl::frame::{BaseFormat, Frame, TEXTURE_UNITS};
+use afterglow_gl::frame::{BaseFormat, Frame, TEXTURE_UNITS, TextureBinding};
 use afterglow_gpu::{BindlessTable, GpuError};
 use afterglow_records::DrawPush;
 
@@ -90,6 +90,14 @@ impl ResolvedBindings {
         }
         Ok(resolved)
     }
+}
+
+/// The word of an image that no unit samples.
+pub(crate) fn image_word(lookup: &mut Lookup<'_>, binding: &TextureBinding) -> Result<u32, GpuError> {
+    let texture = lookup.textures.get(binding.image);
+    let base_format = texture.map_or(BaseFormat::Rgba, |texture| texture.shape.base_format);
+    let sampler = lookup.samplers.index(lookup.table, &binding.sampler, base_format, 0.0)?;
+    Ok(packed(texture.map_or(0, |texture| texture.index), sampler))
 }
 
 fn resolve(lookup: &mut Lookup<'_>, index: u32) -> Result<Resolved, GpuError> {

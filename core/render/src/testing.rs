@@ -161,6 +161,7 @@ impl FrameBuilder {
             texture_matrices: (frame.texture_matrices.len() as u32).saturating_sub(1),
             clip_planes: (frame.clip_planes.len() as u32).saturating_sub(1),
             current: frame.current.len() as u32,
+            hint: frame.hints.len() as u32,
         };
         frame.fixed.push(self.fixed);
         frame.viewports.push(self.viewport);

@@ -10,6 +10,7 @@ mod content;
 mod draws;
 mod formers;
 mod geometry;
+mod hints;
 mod images;
 mod lights;
 mod matrix;

@@ -6,6 +6,7 @@ use glam::{DMat3, Vec3};
 use crate::classify::classify;
 use crate::draws::{self, DrawFacts, TransformFacts};
 use crate::geometry::ContentCache;
+use crate::hints;
 use crate::images::Images;
 use crate::lights::{self, Lighting};
 use crate::shapes::Shapes;
@@ -28,6 +29,7 @@ pub struct Recovery {
     shapes: Shapes,
     tracker: Tracker,
     up: Option<Vec3>,
+    said: hints::Places,
 }
 
 impl Recovery {
@@ -45,7 +47,8 @@ impl Recovery {
     /// The scene that a frame draws. Sees to the frame's images as well.
     pub fn understand(&mut self, frame: &mut Frame) -> Scene {
         self.images.learn(frame);
-        let scene = self.scene(frame);
+        let mut scene = self.scene(frame);
+        hints::apply(frame, &mut scene, &mut self.said);
         self.images.forget(frame);
         scene
     }
@@ -98,6 +101,7 @@ impl Recovery {
             sky,
             ambient,
             baked,
+            cut: false,
         }
     }
 

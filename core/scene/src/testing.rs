@@ -28,6 +28,8 @@ pub struct Sketch {
     pub lights: Lights,
     /// Reference of the alpha test.
     pub alpha_reference: f32,
+    /// What is said of the next draw, as [`Draw::hint`] has it.
+    pub hint: u32,
 }
 
 impl Sketch {
@@ -58,6 +60,7 @@ impl Sketch {
             color: [1.0; 4],
             lights: bytemuck::Zeroable::zeroed(),
             alpha_reference: 0.0,
+            hint: 0,
         }
     }
 
@@ -134,6 +137,7 @@ impl Sketch {
             texture_matrices: 0,
             clip_planes: 0,
             current: frame.current.len() as u32 - 1,
+            hint: self.hint,
         }));
         frame.operations.len() - 1
     }

@@ -83,6 +83,8 @@ pub struct Deformed {
 pub enum LightOrigin {
     /// glLight.
     Gl(u8),
+    /// The program has said it, by GL_AFTERGLOW_scene_hints; the name that it gave to the light.
+    Program(u64),
     /// Nothing was found: a soft sun.
     Fallback,
 }
@@ -115,7 +117,8 @@ pub enum LightShape {
 pub struct SceneLight {
     /// Where it is.
     pub shape: LightShape,
-    /// Linear RGB that a facing white surface would show: OpenGL's diffuse colour, taken as sRGB.
+    /// Linear RGB that a facing white surface would show (where falloff is 1): OpenGL's diffuse colour, taken as sRGB,
+    /// or what the program says over pi.
     pub color: Vec3,
     /// Where it came from.
     pub origin: LightOrigin,
@@ -202,4 +205,6 @@ pub struct Scene {
     pub ambient: Vec3,
     /// The world shows baked light (lightmaps, vertex colours) and has no light sources of its own.
     pub baked: bool,
+    /// The program says that nothing of the frames before is seen any more.
+    pub cut: bool,
 }

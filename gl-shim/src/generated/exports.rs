@@ -432,6 +432,18 @@ exports! {
     fn glSampleCoverageARB(value: f32, invert: u8) = with_context(gl) => gl.sample_coverage(value, number::boolean(invert));
     fn glScaled(x: f64, y: f64, z: f64) = with_context(gl) => gl.scale(number::float(x), number::float(y), number::float(z));
     fn glScalef(x: f32, y: f32, z: f32) = with_context(gl) => gl.scale(x, y, z);
+    fn glSceneClassAFTERGLOW(sceneClass: u32) = with_context(gl) => gl.scene_class(sceneClass);
+    fn glSceneCutAFTERGLOW() = with_context(gl) => gl.scene_cut();
+    fn glSceneDefaultsAFTERGLOW() = with_context(gl) => gl.scene_defaults();
+    fn glSceneDirectionalLightAFTERGLOW(light: u64, direction: *const f32, irradiance: *const f32, angle: f32) = with_context(gl) => gl.scene_directional_light(light, memory::vector(direction, number::float), memory::vector(irradiance, number::float), angle);
+    fn glSceneEmissionAFTERGLOW(red: f32, green: f32, blue: f32) = with_context(gl) => gl.scene_emission(red, green, blue);
+    fn glSceneMapAFTERGLOW(map: u32, texture: u32) = with_context(gl) => gl.scene_map(map, texture);
+    fn glSceneMaterialAFTERGLOW(roughness: f32, metallic: f32) = with_context(gl) => gl.scene_material(roughness, metallic);
+    fn glSceneObjectAFTERGLOW(object: u64) = with_context(gl) => gl.scene_object(object);
+    fn glScenePointLightAFTERGLOW(light: u64, position: *const f32, intensity: *const f32, radius: f32) = with_context(gl) => gl.scene_point_light(light, memory::vector(position, number::float), memory::vector(intensity, number::float), radius);
+    fn glSceneSkyAFTERGLOW(red: f32, green: f32, blue: f32) = with_context(gl) => gl.scene_sky(red, green, blue);
+    fn glSceneSpotLightAFTERGLOW(light: u64, position: *const f32, direction: *const f32, intensity: *const f32, radius: f32, cutoff: f32, exponent: f32) = with_context(gl) => gl.scene_spot_light(light, memory::vector(position, number::float), memory::vector(direction, number::float), memory::vector(intensity, number::float), radius, cutoff, exponent);
+    fn glSceneViewAFTERGLOW() = with_context(gl) => gl.scene_view();
     fn glScissor(x: i32, y: i32, width: i32, height: i32) = with_context(gl) => gl.scissor(x, y, width, height);
     fn glSecondaryColor3b(red: i8, green: i8, blue: i8) = with_context_plainly(gl) => gl.secondary_color([number::snorm8(red), number::snorm8(green), number::snorm8(blue), 1.0]);
     fn glSecondaryColor3bEXT(red: i8, green: i8, blue: i8) = with_context_plainly(gl) => gl.secondary_color([number::snorm8(red), number::snorm8(green), number::snorm8(blue), 1.0]);

@@ -3,7 +3,7 @@
 use super::exports::*;
 use crate::proc_address::{Entry, entry};
 
-pub static TABLE: [Entry; 3348] = [
+pub static TABLE: [Entry; 3360] = [
     entry("glAccum", glAccum as _),
     entry("glAccumxOES", glAccumxOES as _),
     entry("glAcquireKeyedMutexWin32EXT", glAcquireKeyedMutexWin32EXT as _),
@@ -2367,6 +2367,18 @@ pub static TABLE: [Entry; 3348] = [
     entry("glScalef", glScalef as _),
     entry("glScalex", glScalex as _),
     entry("glScalexOES", glScalexOES as _),
+    entry("glSceneClassAFTERGLOW", glSceneClassAFTERGLOW as _),
+    entry("glSceneCutAFTERGLOW", glSceneCutAFTERGLOW as _),
+    entry("glSceneDefaultsAFTERGLOW", glSceneDefaultsAFTERGLOW as _),
+    entry("glSceneDirectionalLightAFTERGLOW", glSceneDirectionalLightAFTERGLOW as _),
+    entry("glSceneEmissionAFTERGLOW", glSceneEmissionAFTERGLOW as _),
+    entry("glSceneMapAFTERGLOW", glSceneMapAFTERGLOW as _),
+    entry("glSceneMaterialAFTERGLOW", glSceneMaterialAFTERGLOW as _),
+    entry("glSceneObjectAFTERGLOW", glSceneObjectAFTERGLOW as _),
+    entry("glScenePointLightAFTERGLOW", glScenePointLightAFTERGLOW as _),
+    entry("glSceneSkyAFTERGLOW", glSceneSkyAFTERGLOW as _),
+    entry("glSceneSpotLightAFTERGLOW", glSceneSpotLightAFTERGLOW as _),
+    entry("glSceneViewAFTERGLOW", glSceneViewAFTERGLOW as _),
     entry("glScissor", glScissor as _),
     entry("glScissorArrayv", glScissorArrayv as _),
     entry("glScissorArrayvNV", glScissorArrayvNV as _),

@@ -19,6 +19,7 @@ pub enum Number {
     U16,
     I32,
     U32,
+    U64,
     /// As wide as a pointer.
     Size,
     F32,
@@ -46,6 +47,7 @@ impl Number {
             Base::Int if is_format => Number::Format,
             Base::Int | Base::Sizei => Number::I32,
             Base::UInt => Number::U32,
+            Base::UInt64 => Number::U64,
             Base::Intptr | Base::Sizeiptr => Number::Size,
             Base::Float | Base::Clampf => Number::F32,
             Base::Double | Base::Clampd => Number::F64,
@@ -62,7 +64,7 @@ impl Number {
         match self {
             Number::I8 | Number::U8 | Number::Boolean => 1,
             Number::I16 | Number::U16 => 2,
-            Number::F64 => 8,
+            Number::U64 | Number::F64 => 8,
             Number::Size | Number::Address => size_of::<usize>(),
             _ => 4,
         }
@@ -82,7 +84,7 @@ impl Number {
                 Number::I16 => i64::from(at.cast::<i16>().read_unaligned()) as u64,
                 Number::U16 => at.cast::<u16>().read_unaligned().into(),
                 Number::I32 | Number::Format => i64::from(at.cast::<i32>().read_unaligned()) as u64,
-                Number::F64 => at.cast::<u64>().read_unaligned(),
+                Number::U64 | Number::F64 => at.cast::<u64>().read_unaligned(),
                 Number::Size => at.cast::<isize>().read_unaligned() as i64 as u64,
                 Number::Address => at.cast::<usize>().read_unaligned() as u64,
                 _ => at.cast::<u32>().read_unaligned().into(),
@@ -97,7 +99,7 @@ impl Number {
             Number::F32 => writer.float(f32::from_bits(bits as u32)),
             Number::F64 => writer.double(f64::from_bits(bits)),
             Number::I8 | Number::I16 | Number::I32 | Number::Size => writer.sint(bits as i64),
-            Number::U8 | Number::U16 | Number::U32 => writer.uint(bits),
+            Number::U8 | Number::U16 | Number::U32 | Number::U64 => writer.uint(bits),
             Number::Boolean => writer.enumerant(&names::BOOLEANS, bits as i64),
             Number::Enum | Number::Format => writer.enumerant(&names::enumerants(), bits as i64),
             Number::Primitive => writer.enumerant(&names::PRIMITIVES, bits as i64),

@@ -214,6 +214,9 @@ mod tests {
         assert_eq!(kinds(id::glDrawRangeElementsEXT)[5], Kind::Indices(3, 4));
         assert_eq!(plan(id::glVertexPointerEXT).role, Role::ArrayPointer);
         assert_eq!(kinds(id::glReadPixels)[6], Kind::Number(Number::Address));
+        let vector = Kind::Array(Number::F32, Length::Count(3));
+        let light = [Kind::Number(Number::U64), vector, vector, Kind::Number(Number::F32)];
+        assert_eq!(kinds(id::glScenePointLightAFTERGLOW), light);
         assert_eq!(kinds(id::glGetPixelMapusv)[1], Kind::PixelMap(Number::U16));
         assert_eq!(kinds(id::glFogfv)[1], Kind::Answers(Number::F32, 0));
         assert!(!plan(id::glFogfv).is_written(1) && plan(id::glGetPixelMapusv).is_written(1));

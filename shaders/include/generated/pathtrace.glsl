@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 192 bytes
+struct SurfaceDraw { // 224 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -21,6 +21,12 @@ struct SurfaceDraw { // 192 bytes
     uint next_layer;
     uint blend;
     uint ray_mask;
+    vec3 emission;
+    float roughness;
+    float metallic;
+    uint normal_map;
+    uint metallic_roughness_map;
+    uint emission_map;
 };
 #endif
 
@@ -155,6 +161,7 @@ struct ViewPush { // 32 bytes
 #define MASK_MOVING 2u
 #define MASK_VIEW_MODEL 4u
 #define MEMBER_SHIFT 20u
+#define NO_MAP 4294967295u
 
 #define SURFACE_NONE 0u
 #define SURFACE_LIT 1u

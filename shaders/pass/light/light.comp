@@ -13,6 +13,7 @@
 #include "pathtrace/hit.glsl"
 #include "pathtrace/lights.glsl"
 #include "pathtrace/random.glsl"
+#include "pathtrace/said.glsl"
 #include "pathtrace/sampling.glsl"
 #include "pathtrace/surface.glsl"
 
@@ -83,6 +84,7 @@ vec3 met_light(ViewRecord view, Hit hit, vec3 direction, out Place place) {
     if (draw.it.kind != SURFACE_LIT) {
         return color + emission;
     }
+    emission += said_emission(view, draw, triangle, weights, RAY_TEXELS);
     place.weight = color;
     return color * view.ambient + emission;
 }

@@ -10,6 +10,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "fixed/fog.glsl"
+#include "pathtrace/color.glsl"
+#include "pathtrace/said.glsl"
 #include "pathtrace/surface.glsl"
 #include "pathtrace/vertices.glsl"
 #include "ray.glsl"
@@ -90,6 +92,79 @@ uint byte_of(float value) {
     return uint(clamp(value, 0.0, 1.0) * 255.0 + 0.5);
 }
 
+// Specular colour and shininess of a material that the program says (`albedo` is linear). The highlight is that of
+// OpenGL's lighting, made as wide and as bright as a rough surface's (Blinn's exponent by the roughness squared, Walter
+// and others, Microfacet Models for Refraction, 2007; normalized as in Akenine-Moeller and others, Real-Time Rendering,
+// section 9.8).
+uint said_highlight(vec3 albedo, float roughness, float metallic) {
+    float alpha = max(roughness * roughness, 0.01);
+    float exponent = max(2.0 / (alpha * alpha) - 2.0, 0.0);
+    // Light is found with the falloff in sRGB, as OpenGL has it, where 1 / 2.2 of an exponent falls as far.
+    float shininess = min(exponent / 2.2, 128.0);
+    vec3 facing = mix(vec3(0.04), albedo, metallic);
+    vec3 strength = facing * (2.2 * shininess + 8.0) / 8.0;
+    return pack_color(srgb_from_linear(clamp(strength, 0.0, 1.0)), byte_of(shininess / 128.0));
+}
+
+// Texels, as a power of two, along a unit of a map's coordinates, so that one of them is as wide as a pixel.
+float seen_texels(ViewRecord view, vec3 world[3], vec2 coordinates[3], float away) {
+    vec2 edge_1 = coordinates[1] - coordinates[0];
+    vec2 edge_2 = coordinates[2] - coordinates[0];
+    float area_map = abs(edge_1.x * edge_2.y - edge_1.y * edge_2.x);
+    float area_world = length(cross(world[1] - world[0], world[2] - world[0]));
+    return 0.5 * log2(max(area_world, 1e-20) / max(area_map, 1e-20)) - log2(max(view.pixel_spread * away, 1e-20));
+}
+
+// The normal that a map has, turned into the triangle's plane: x along growing s, y along growing t.
+vec3 mapped_normal(vec3 texel, vec3 normal, vec3 world[3], vec2 coordinates[3]) {
+    vec3 edge_1 = world[1] - world[0];
+    vec3 edge_2 = world[2] - world[0];
+    vec2 map_1 = coordinates[1] - coordinates[0];
+    vec2 map_2 = coordinates[2] - coordinates[0];
+    float area = map_1.x * map_2.y - map_1.y * map_2.x;
+    if (area == 0.0) {
+        return normal;
+    }
+    vec3 along_s = (edge_1 * map_2.y - edge_2 * map_1.y) * sign(area);
+    vec3 along_t = (edge_2 * map_1.x - edge_1 * map_2.x) * sign(area);
+    vec3 tangent = unit_vector(along_s - normal * dot(normal, along_s));
+    vec3 bitangent = cross(normal, tangent);
+    bitangent = dot(bitangent, along_t) < 0.0 ? -bitangent : bitangent;
+    vec3 own = texel * 2.0 - 1.0;
+    vec3 mapped = unit_vector(tangent * own.x + bitangent * own.y + normal * own.z);
+    return mapped == vec3(0.0) ? normal : mapped;
+}
+
+// Lets what the program says of the material count. `albedo` is in sRGB, and the emission that the texel has so far.
+void apply_said(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, vec3 world[3], float away,
+    vec3 albedo, inout vec3 emission, inout SurfaceTexel texel) {
+    vec2 coordinates[3];
+    [[dont_unroll]] for (uint i = 0u; i < 3u; ++i) {
+        vec3 corner = vec3(i == 0u ? 1.0 : 0.0, i == 1u ? 1.0 : 0.0, i == 2u ? 1.0 : 0.0);
+        coordinates[i] = map_coordinates(view, draw, triangle, corner);
+    }
+    float texels = seen_texels(view, world, coordinates, away);
+    vec2 here = coordinates[0] * weights.x + coordinates[1] * weights.y + coordinates[2] * weights.z;
+    if (draw.it.normal_map != NO_MAP) {
+        vec3 turned = map_texel(draw.it.normal_map, here, texels).rgb;
+        texel.normal = pack_unit_vector(mapped_normal(turned, unpack_unit_vector(texel.normal), world, coordinates));
+    }
+    if (draw.it.roughness >= 0.0) {
+        vec2 varied = vec2(draw.it.roughness, draw.it.metallic);
+        if (draw.it.metallic_roughness_map != NO_MAP) {
+            varied *= map_texel(draw.it.metallic_roughness_map, here, texels).gb;
+        }
+        texel.specular = said_highlight(linear_from_srgb(albedo), varied.x, varied.y);
+    }
+    vec3 given_off = said_emission(view, draw, triangle, weights, texels);
+    emission = srgb_from_linear(min(linear_from_srgb(emission) + given_off, 1.0));
+}
+
+// Whether the program says anything of a draw's material.
+bool is_said(DrawReference draw) {
+    return draw.it.roughness >= 0.0 || draw.it.emission != vec3(0.0) || draw.it.normal_map != NO_MAP;
+}
+
 SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint triangle) {
     DrawReference draw = surface_draw(view, draw_index);
     GlobalState state = global_state(draw);
@@ -123,6 +198,9 @@ SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint tr
         texel.specular = pack_color(clamp(specular, 0.0, 1.0), byte_of(material.shininess / 128.0));
         emission = clamp(material.emission.rgb, 0.0, 1.0) * albedo;
         albedo *= clamp(material.diffuse.rgb, 0.0, 1.0);
+    }
+    if (draw.it.kind == SURFACE_LIT && is_said(draw)) {
+        apply_said(view, draw, triangle, weights, world, away, albedo, emission, texel);
     }
     texel.albedo = pack_color(albedo, byte_of(fog));
     texel.emission = pack_color(emission, draw.it.kind | draw.it.ray_mask << 4);

@@ -1,6 +1,6 @@
 // Written by afterglow-gen (./x gen) from the Khronos XML and manifests/gl-behaviours.toml; not to be edited.
 
-pub static NAMES: [(u32, &str); 3615] = [
+pub static NAMES: [(u32, &str); 3629] = [
     (0x0100, "GL_ACCUM"),
     (0x0101, "GL_LOAD"),
     (0x0102, "GL_RETURN"),
@@ -3610,6 +3610,20 @@ pub static NAMES: [(u32, &str); 3615] = [
     (0x1a22b, "GL_VERTEX_CONSISTENT_HINT_PGI"),
     (0x1a22c, "GL_MATERIAL_SIDE_HINT_PGI"),
     (0x1a22d, "GL_MAX_VERTEX_HINT_PGI"),
+    (0x41470001, "GL_SCENE_STATIC_AFTERGLOW"),
+    (0x41470002, "GL_SCENE_MOVABLE_AFTERGLOW"),
+    (0x41470003, "GL_SCENE_DYNAMIC_AFTERGLOW"),
+    (0x41470004, "GL_SCENE_VIEW_MODEL_AFTERGLOW"),
+    (0x41470005, "GL_SCENE_TRANSLUCENT_AFTERGLOW"),
+    (0x41470006, "GL_SCENE_SKY_AFTERGLOW"),
+    (0x41470007, "GL_SCENE_INTERFACE_AFTERGLOW"),
+    (0x41470008, "GL_SCENE_LAYER_AFTERGLOW"),
+    (0x41470009, "GL_SCENE_OTHER_VIEW_AFTERGLOW"),
+    (0x4147000a, "GL_SCENE_DROPPED_AFTERGLOW"),
+    (0x41470010, "GL_SCENE_NORMAL_MAP_AFTERGLOW"),
+    (0x41470011, "GL_SCENE_METALLIC_ROUGHNESS_MAP_AFTERGLOW"),
+    (0x41470012, "GL_SCENE_EMISSION_MAP_AFTERGLOW"),
+    (0x41470020, "GL_MAX_SCENE_LIGHTS_AFTERGLOW"),
     (0xfffffffa, "GL_SKIP_COMPONENTS1_NV"),
     (0xfffffffb, "GL_SKIP_COMPONENTS2_NV"),
     (0xfffffffc, "GL_SKIP_COMPONENTS3_NV"),
@@ -3618,7 +3632,7 @@ pub static NAMES: [(u32, &str); 3615] = [
     (0xffffffff, "GL_INVALID_INDEX"),
 ];
 
-pub static GROUPS: [(&str, &[(u32, &str)]); 78] = [
+pub static GROUPS: [(&str, &[(u32, &str)]); 80] = [
     ("AccumOp", &[
         (0x0100, "GL_ACCUM"),
         (0x0101, "GL_LOAD"),
@@ -4559,6 +4573,7 @@ pub static GROUPS: [(&str, &[(u32, &str)]); 78] = [
         (0x95b1, "GL_SHADING_RATE_IMAGE_PER_PRIMITIVE_NV"),
         (0x95b2, "GL_SHADING_RATE_IMAGE_PALETTE_COUNT_NV"),
         (0x95b6, "GL_MAX_TIMELINE_SEMAPHORE_VALUE_DIFFERENCE_NV"),
+        (0x41470020, "GL_MAX_SCENE_LIGHTS_AFTERGLOW"),
     ]),
     ("GetPointervPName", &[
         (0x0df0, "GL_FEEDBACK_BUFFER_POINTER"),
@@ -5252,6 +5267,23 @@ pub static GROUPS: [(&str, &[(u32, &str)]); 78] = [
         (0x1c00, "GL_RENDER"),
         (0x1c01, "GL_FEEDBACK"),
         (0x1c02, "GL_SELECT"),
+    ]),
+    ("SceneClassAFTERGLOW", &[
+        (0x41470001, "GL_SCENE_STATIC_AFTERGLOW"),
+        (0x41470002, "GL_SCENE_MOVABLE_AFTERGLOW"),
+        (0x41470003, "GL_SCENE_DYNAMIC_AFTERGLOW"),
+        (0x41470004, "GL_SCENE_VIEW_MODEL_AFTERGLOW"),
+        (0x41470005, "GL_SCENE_TRANSLUCENT_AFTERGLOW"),
+        (0x41470006, "GL_SCENE_SKY_AFTERGLOW"),
+        (0x41470007, "GL_SCENE_INTERFACE_AFTERGLOW"),
+        (0x41470008, "GL_SCENE_LAYER_AFTERGLOW"),
+        (0x41470009, "GL_SCENE_OTHER_VIEW_AFTERGLOW"),
+        (0x4147000a, "GL_SCENE_DROPPED_AFTERGLOW"),
+    ]),
+    ("SceneMapAFTERGLOW", &[
+        (0x41470010, "GL_SCENE_NORMAL_MAP_AFTERGLOW"),
+        (0x41470011, "GL_SCENE_METALLIC_ROUGHNESS_MAP_AFTERGLOW"),
+        (0x41470012, "GL_SCENE_EMISSION_MAP_AFTERGLOW"),
     ]),
     ("ShadingModel", &[
         (0x1d00, "GL_FLAT"),

@@ -11,6 +11,7 @@ pub fn decoder(base: Base) -> Option<&'static str> {
         Base::Float | Base::Clampf => "float",
         Base::Double | Base::Clampd => "double",
         Base::Boolean => "boolean",
+        Base::UInt64 => "ulong",
         Base::Intptr | Base::Sizeiptr => "size",
         _ => return None,
     })

@@ -30,6 +30,7 @@ fn number_type(base: Base) -> Option<&'static str> {
         Base::UInt | Base::Enum | Base::Bitfield => "u32",
         Base::Float | Base::Clampf => "f32",
         Base::Double | Base::Clampd => "f64",
+        Base::UInt64 => "u64",
         Base::Intptr | Base::Sizeiptr => "isize",
         _ => return None,
     })

@@ -63,6 +63,7 @@ fn is_same(base: Base, decoder: &str) -> bool {
         "uint" => matches!(base, Base::Enum | Base::Bitfield | Base::UInt),
         "int" => matches!(base, Base::Int | Base::Sizei),
         "ushort" => base == Base::UShort,
+        "ulong" => base == Base::UInt64,
         "float" => matches!(base, Base::Float | Base::Clampf),
         "double" => matches!(base, Base::Double | Base::Clampd),
         "size" => matches!(base, Base::Intptr | Base::Sizeiptr),

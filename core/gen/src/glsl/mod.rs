@@ -8,7 +8,9 @@ mod lists;
 
 use afterglow_gl::frame::{CLIP_PLANES, GlobalWords, LIGHTS, SLOTS, STATE_WORDS, TEXTURE_UNITS, UnitWords};
 use afterglow_layout::StructDescription;
-use afterglow_records::{BlendWord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, WHITE_ALBEDO};
+use afterglow_records::{
+    BlendWord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, NO_MAP, WHITE_ALBEDO,
+};
 
 use self::constants::{enumerations, record_enumerations, surface_enumerations};
 
@@ -55,6 +57,7 @@ pub fn pathtrace() -> String {
         ("MASK_MOVING", MASK_MOVING),
         ("MASK_VIEW_MODEL", MASK_VIEW_MODEL),
         ("MEMBER_SHIFT", MEMBER_SHIFT),
+        ("NO_MAP", NO_MAP),
     ];
     let mut text = structures(&lists::pathtrace()) + "\n" + &BlendWord::description().glsl();
     for (name, value) in masks {

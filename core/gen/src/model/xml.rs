@@ -36,10 +36,11 @@ pub enum ModelError {
     },
 }
 
-const FILES: [(&str, Api, &str); 3] = [
+const FILES: [(&str, Api, &str); 4] = [
     ("manifests/khronos/gl.xml", Api::Gl, "gl"),
     ("manifests/khronos/glx.xml", Api::Glx, "glx"),
     ("manifests/khronos/wgl.xml", Api::Wgl, "wgl"),
+    ("manifests/afterglow.xml", Api::Gl, "gl"),
 ];
 
 /// Texts of the pinned files.

@@ -18,6 +18,7 @@ struct Offsets {
     texture_matrices: u32,
     clip_planes: u32,
     current: u32,
+    hints: u32,
 }
 
 impl Frame {
@@ -43,6 +44,7 @@ impl Frame {
             texture_matrices: self.texture_matrices.len() as u32,
             clip_planes: self.clip_planes.len() as u32,
             current: self.current.len() as u32,
+            hints: self.hints.len() as u32,
         };
         self.size = later.size;
         self.operations.extend(later.operations.drain(..).map(|operation| offsets.operation(operation)));
@@ -61,6 +63,8 @@ impl Frame {
         self.texture_matrices.append(&mut later.texture_matrices);
         self.clip_planes.append(&mut later.clip_planes);
         self.current.append(&mut later.current);
+        self.hints.append(&mut later.hints);
+        self.scene_hints.append(&mut later.scene_hints);
     }
 }
 
@@ -112,6 +116,7 @@ impl Offsets {
             texture_matrices: draw.texture_matrices + self.texture_matrices,
             clip_planes: draw.clip_planes + self.clip_planes,
             current: draw.current + self.current,
+            hint: if draw.hint == 0 { 0 } else { draw.hint + self.hints },
             ..draw
         }
     }

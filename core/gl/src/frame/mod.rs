@@ -2,6 +2,7 @@
 
 mod append;
 mod blocks;
+mod hints;
 mod image;
 mod range;
 mod raster_state;
@@ -10,6 +11,7 @@ mod words;
 use std::sync::Arc;
 
 pub use blocks::*;
+pub use hints::*;
 pub use image::*;
 pub use range::*;
 pub use raster_state::*;
@@ -72,7 +74,7 @@ pub struct Viewport {
 pub type Bindings = [Option<TextureBinding>; TEXTURE_UNITS];
 
 /// A draw: vertices and the state that they meet. Every `u32` names an entry of the frame's table
-/// of the same name.
+/// of the same name, but for `hint`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Draw {
     pub source: VertexSource,
@@ -91,6 +93,8 @@ pub struct Draw {
     pub texture_matrices: u32,
     pub clip_planes: u32,
     pub current: u32,
+    /// What the program says of it: 0 is nothing, n the entry n - 1 of [`Frame::hints`].
+    pub hint: u32,
 }
 
 /// glClear.
@@ -267,6 +271,10 @@ pub struct Frame {
     pub texture_matrices: Vec<TextureMatrices>,
     pub clip_planes: Vec<ClipPlanes>,
     pub current: Vec<CurrentAttributes>,
+    /// What is said of draws; empty in frames of programs that say nothing.
+    pub hints: Vec<Hint>,
+    /// What is said of the frame.
+    pub scene_hints: SceneHints,
 }
 
 impl Frame {
@@ -288,6 +296,8 @@ impl Frame {
         self.texture_matrices.clear();
         self.clip_planes.clear();
         self.current.clear();
+        self.hints.clear();
+        self.scene_hints.clear();
     }
 
     /// Leaves out all but what images are made of from the program's memory: draws name images that are lost.
@@ -309,6 +319,11 @@ impl Frame {
             Operation::Draw(draw) => Some((i, draw)),
             _ => None,
         })
+    }
+
+    /// What the program says of a draw, if anything.
+    pub fn hint(&self, draw: &Draw) -> Option<&Hint> {
+        self.hints.get((draw.hint as usize).checked_sub(1)?)
     }
 
     /// Words of the draw's vertices and its indices.

@@ -13,6 +13,7 @@ pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewR
         // Not read yet, but named by the same array of images, which must all be ready then.
         .read(frame.color, Access::StorageReadCompute)
         .read(frame.geometry, Access::StorageReadCompute)
+        .read(frame.textures, Access::StorageReadCompute)
         .write(views.surfaces, Access::StorageWriteCompute)
         .when(!needs.is_idle, IDLE_REASON);
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use afterglow_gl::frame::{Draw, Frame, Topology};
+use afterglow_gl::frame::{Draw, Frame, HintMaterial, Topology};
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
 use afterglow_records::{SurfaceDraw, SurfaceKind, WHITE_ALBEDO};
 use afterglow_scene::Verdict;
@@ -12,10 +12,11 @@ use super::arrange::Mark;
 use super::geometry::GeometryReader;
 use super::lights::Highlights;
 use super::options::{Displaced, PathtraceOptions};
+use super::said::SaidMaterial;
 use super::surfaces::{LayerFinder, Lighting, Located, has_holes, masks, surface_draw};
 use super::tracer::Tracing;
 use super::world::{Traced, relative};
-use crate::bindings::Lookup;
+use crate::bindings::{Lookup, image_word};
 use crate::passes::raster::{DrawMark, RasterState};
 use crate::tables::Scratch;
 use crate::textures::Textures;
@@ -122,7 +123,9 @@ impl<'a> Gatherer<'a, '_> {
 
     fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
-        let kind = self.lighting.kind(verdict, words);
+        let hint = self.input.frame.hint(place.draw);
+        let has_material = hint.is_some_and(|hint| hint.material != HintMaterial::default());
+        let kind = self.lighting.kind(verdict, words, has_material);
         let (mask, meets) = masks(verdict.class, kind);
         let surface = self.record(place, verdict, kind, meets)?;
         let triangles = self.geometry.read(self.input.frame, place.draw);
@@ -174,9 +177,11 @@ impl<'a> Gatherer<'a, '_> {
             indices: input.scratch.commands[place.number].indices,
             push: &push,
         };
+        let material = SaidMaterial::of(input.frame, draw, |map| image_word(&mut lookup, map))?;
         let number = self.surfaces.records.len() as u32;
         let rows = relative(&verdict.model, self.origin);
         let record = surface_draw(input.frame, draw, located, rows, kind, ray_mask, number);
+        let record = material.write(record);
         self.surfaces.records.push(record);
         Ok(number)
     }

@@ -16,6 +16,7 @@ mod pipelines;
 mod prepare;
 mod rays;
 mod record;
+mod said;
 pub(crate) mod schedule;
 mod slabs;
 mod surfaces;

@@ -2,7 +2,8 @@
 
 use afterglow_gl::frame::{Compare, Draw, FixedState, Frame, StateWords};
 use afterglow_records::{
-    BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, SurfaceDraw, SurfaceKind,
+    BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, NO_MAP, SurfaceDraw,
+    SurfaceKind,
 };
 use afterglow_scene::{Class, LightOrigin, Scene, Verdict};
 use hashbrown::HashMap;
@@ -14,6 +15,9 @@ use super::geometry::Triangles;
 pub(crate) enum Lighting {
     /// By lights that the program has.
     Lights,
+    /// By lights that the program says, in a world that it does not light itself: every surface is lit by them unless its
+    /// colours are baked light.
+    Said,
     /// By a light that was made up: every surface is lit by it unless its colours are baked light.
     MadeUp,
     /// Its colours are its light.
@@ -25,6 +29,8 @@ impl Lighting {
         let is_programs = |origin| matches!(origin, LightOrigin::Gl(_));
         if scene.lights.is_empty() {
             Self::Baked
+        } else if scene.lights.iter().any(|light| matches!(light.origin, LightOrigin::Program(_))) {
+            Self::Said
         } else if scene.lights.iter().any(|light| is_programs(light.origin)) {
             Self::Lights
         } else {
@@ -32,13 +38,13 @@ impl Lighting {
         }
     }
 
-    /// How light is found for a draw.
-    pub(crate) fn kind(self, verdict: &Verdict, words: &StateWords) -> SurfaceKind {
+    /// How light is found for a draw; `has_material`: the program says what it is made of.
+    pub(crate) fn kind(self, verdict: &Verdict, words: &StateWords, has_material: bool) -> SurfaceKind {
         match self {
-            Self::Lights if words.is_lit() => SurfaceKind::Lit,
+            Self::Lights if words.is_lit() || has_material => SurfaceKind::Lit,
             Self::Lights => SurfaceKind::Catcher,
-            Self::MadeUp if verdict.baked => SurfaceKind::Catcher,
-            Self::MadeUp => SurfaceKind::Lit,
+            Self::Said | Self::MadeUp if verdict.baked => SurfaceKind::Catcher,
+            Self::Said | Self::MadeUp => SurfaceKind::Lit,
             Self::Baked if verdict.class == Class::Static => SurfaceKind::Baked,
             Self::Baked => SurfaceKind::BakedMover,
         }
@@ -103,6 +109,12 @@ pub(crate) fn surface_draw(
         next_layer: number,
         blend: blend_word(fixed).0[0],
         ray_mask,
+        emission: [0.0; 3],
+        roughness: -1.0,
+        metallic: 0.0,
+        normal_map: NO_MAP,
+        metallic_roughness_map: NO_MAP,
+        emission_map: NO_MAP,
     }
 }
 

@@ -96,6 +96,10 @@ impl Tracer {
     /// Judges a frame, and puts it in order if it has a world.
     pub(crate) fn understand(&mut self, frame: &mut Frame) -> Understood {
         let mut scene = self.recovery.understand(frame);
+        if scene.cut {
+            self.forget();
+            self.has_exposure = false;
+        }
         let report = SceneReport::of(&scene);
         let arrangement = scene.camera.map(|_| arrange(frame, &scene));
         let tracing = arrangement.filter(|arrangement| !arrangement.views.is_empty()).map(|arrangement| {

@@ -2,6 +2,7 @@
 
 mod clears;
 mod fragments;
+mod hints;
 mod lighting;
 mod pathtrace;
 mod pixels;

@@ -11,15 +11,15 @@ use glam::Vec3;
 use crate::testing::*;
 use crate::{Displaced, Mode, PathtraceOptions, Renderer};
 
-const SIZE: (u32, u32) = (96, 72);
+pub(super) const SIZE: (u32, u32) = (96, 72);
 /// The middle of the shadow of the slab, and a place on the floor as far from the light that is open to it.
-const SHADOW: [u32; 2] = [48, 42];
-const OPEN: [u32; 2] = [16, 42];
+pub(super) const SHADOW: [u32; 2] = [48, 42];
+pub(super) const OPEN: [u32; 2] = [16, 42];
 
 /// One renderer that is looked at while a context draws with it.
-struct Stage {
-    gl: Context,
-    renderer: Arc<Mutex<Renderer>>,
+pub(super) struct Stage {
+    pub(super) gl: Context,
+    pub(super) renderer: Arc<Mutex<Renderer>>,
 }
 
 struct Shared(Arc<Mutex<Renderer>>);
@@ -35,7 +35,7 @@ impl Backend for Shared {
 }
 
 impl Stage {
-    fn new(mode: Mode, change: impl FnOnce(&mut PathtraceOptions)) -> Self {
+    pub(super) fn new(mode: Mode, change: impl FnOnce(&mut PathtraceOptions)) -> Self {
         let mut options = PathtraceOptions { spp: 4, accumulate: false, ..PathtraceOptions::default() };
         change(&mut options);
         let mut renderer = renderer();
@@ -80,21 +80,22 @@ impl Stage {
         gl.swap_buffers();
     }
 
-    fn picture(&self) -> Vec<u8> {
+    pub(super) fn picture(&self) -> Vec<u8> {
         self.renderer.lock().unwrap().read_color().unwrap()
     }
 
     /// The green of a pixel; rows count from the top.
-    fn brightness(&self, [x, y]: [u32; 2]) -> i32 {
+    pub(super) fn brightness(&self, [x, y]: [u32; 2]) -> i32 {
         i32::from(self.picture()[((y * SIZE.0 + x) * 4 + 1) as usize])
     }
 }
 
 /// A square that lies flat.
-fn slab(gl: &mut Context, half: f32) {
+pub(super) fn slab(gl: &mut Context, half: f32) {
     gl.begin(GL_QUADS);
     gl.normal([0.0, 1.0, 0.0]);
     for [x, z] in [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
+        gl.tex_coord([x, -z, 0.0, 1.0]);
         gl.vertex([x * half, 0.0, z * half, 1.0]);
     }
     gl.end();

@@ -2,6 +2,7 @@
 
 mod camera;
 mod classes;
+mod hints;
 mod layers;
 mod lights;
 mod robustness;

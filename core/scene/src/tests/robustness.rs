@@ -1,6 +1,6 @@
 //! Whatever a frame holds, understanding it neither fails nor yields what is not a number.
 
-use afterglow_gl::frame::{BlendFactor, Compare};
+use afterglow_gl::frame::{BlendFactor, Compare, Hint, HintClass, HintLight, HintLightShape};
 use glam::{Mat4, Vec3};
 use proptest::prelude::*;
 
@@ -22,6 +22,34 @@ fn matrix() -> impl Strategy<Value = Mat4> {
 }
 
 proptest! {
+    #[test]
+    fn whatever_is_said_is_survived(
+        draws in prop::collection::vec((matrix(), any::<bool>(), 0usize..4), 1..6),
+        view in matrix(),
+        light in prop::array::uniform3(-1e38f32..1e38),
+        color in prop::array::uniform3(0.0f32..f32::MAX),
+    ) {
+        let mut sketch = Sketch::new();
+        for (modelview, ordinary, class) in draws {
+            sketch.modelview = modelview;
+            sketch.projection = if ordinary { crate::testing::perspective() } else { view };
+            let class = [HintClass::Static, HintClass::ViewModel, HintClass::Layer, HintClass::Dynamic][class];
+            sketch.frame.hints.push(Hint { class: Some(class), ..Hint::default() });
+            sketch.hint = sketch.frame.hints.len() as u32;
+            sketch.world();
+        }
+        sketch.frame.scene_hints.view = Some(view.to_cols_array_2d());
+        let shape = HintLightShape::Point { position: light, radius: 0.0 };
+        sketch.frame.scene_hints.lights = vec![HintLight { id: 1, shape, color }; 40];
+        let scene = Recovery::new().understand(&mut sketch.frame);
+        prop_assert!(scene.camera.is_none_or(|camera| camera.view.is_finite() && camera.projection.is_finite()));
+        for verdict in &scene.verdicts {
+            prop_assert!(!verdict.class.is_traced() || verdict.model.is_finite());
+        }
+        prop_assert!(scene.lights.iter().all(|light| light.color.is_finite()));
+    }
+
+
     #[test]
     fn any_matrices_and_vertices_are_survived(
         draws in prop::collection::vec((matrix(), matrix(), 0usize..4, any::<bool>(), 0.0f32..2.0), 1..8),

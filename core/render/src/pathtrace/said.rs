@@ -1,0 +1,48 @@
+//! What a program says of its surfaces' material, as records that shaders read.
+
+use afterglow_gl::frame::{Draw, Frame, HintMaterial, TextureBinding};
+use afterglow_records::{NO_MAP, SurfaceDraw};
+
+/// A material that the program says, its maps as shaders name them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SaidMaterial {
+    said: HintMaterial,
+    normal_map: u32,
+    metallic_roughness_map: u32,
+    emission_map: u32,
+}
+
+impl SaidMaterial {
+    /// What is said of a draw. `word` names an image as shaders do.
+    pub(crate) fn of<E>(
+        frame: &Frame,
+        draw: &Draw,
+        mut word: impl FnMut(&TextureBinding) -> Result<u32, E>,
+    ) -> Result<Self, E> {
+        let said = frame.hint(draw).map(|hint| hint.material).unwrap_or_default();
+        let mut map = |map: Option<TextureBinding>| map.map_or(Ok(NO_MAP), |map| word(&map));
+        Ok(Self {
+            said,
+            normal_map: map(said.normal_map)?,
+            metallic_roughness_map: map(said.metallic_roughness_map)?,
+            emission_map: map(said.emission_map)?,
+        })
+    }
+
+    /// The record with what is said. A map without a value that it varies varies 1.
+    pub(crate) fn write(&self, record: SurfaceDraw) -> SurfaceDraw {
+        let without = |map: u32, absent: f32| if map == NO_MAP { absent } else { 1.0 };
+        let roughness = without(self.metallic_roughness_map, record.roughness);
+        let metallic = without(self.metallic_roughness_map, record.metallic);
+        let [roughness, metallic] = self.said.roughness_metallic.unwrap_or([roughness, metallic]);
+        SurfaceDraw {
+            emission: self.said.emission.unwrap_or([without(self.emission_map, 0.0); 3]),
+            roughness,
+            metallic,
+            normal_map: self.normal_map,
+            metallic_roughness_map: self.metallic_roughness_map,
+            emission_map: self.emission_map,
+            ..record
+        }
+    }
+}

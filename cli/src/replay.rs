@@ -1,7 +1,7 @@
 //! `afterglow replay`: plays a captured trace and writes its pictures.
 
 mod report;
-mod session;
+pub mod session;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;

@@ -89,7 +89,7 @@ impl Backend for Shared {
 }
 
 /// Drops what only draws: nobody will see it. A frame whose pixels become texels is drawn all the same.
-fn keep_state_only(frame: &mut Frame) {
+pub fn keep_state_only(frame: &mut Frame) {
     let reads = |operation: &Operation| matches!(operation, Operation::CopyToImage(_));
     if frame.operations.iter().any(reads) {
         return;

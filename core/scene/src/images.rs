@@ -42,9 +42,13 @@ impl ImageFacts {
     }
 
     /// Hash of shape and texels of level 0, the same in all runs of a program: what names the image.
-    #[expect(dead_code, reason = "identity is built on it")]
     pub fn content(&self) -> u64 {
         self.content
+    }
+
+    /// Width, height, depth of level 0, texels, and what the texels mean.
+    pub fn shape(&self) -> &ImageShape {
+        &self.shape
     }
 
     fn upload(&mut self, upload: &ImageUpload) {

@@ -22,5 +22,6 @@ mod types;
 mod views;
 mod world;
 
+pub use images::ImageFacts;
 pub use recovery::Recovery;
 pub use types::*;

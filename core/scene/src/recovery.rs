@@ -1,12 +1,12 @@
 //! Recovery: what is kept from frame to frame, and the steps from a frame to its scene.
 
-use afterglow_gl::frame::Frame;
+use afterglow_gl::frame::{Frame, ImageKey};
 use glam::{DMat3, Vec3};
 
 use crate::classify::classify;
 use crate::draws::{self, DrawFacts, TransformFacts};
 use crate::geometry::ContentCache;
-use crate::images::Images;
+use crate::images::{ImageFacts, Images};
 use crate::lights::{self, Lighting};
 use crate::matrix;
 use crate::sky;
@@ -37,6 +37,11 @@ impl Recovery {
     pub fn observe(&mut self, frame: &Frame) {
         self.images.learn(frame);
         self.images.forget(frame);
+    }
+
+    /// What is known of an image of the frames so far, unless it was dropped.
+    pub fn image(&self, image: ImageKey) -> Option<&ImageFacts> {
+        self.images.get(image)
     }
 
     /// The scene that a frame draws. Sees to the frame's images as well.

@@ -1,0 +1,80 @@
+//! `afterglow inspect`: what it says of draws, and the pictures it paints.
+
+#![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data").join(name)
+}
+
+fn inspect(trace: &str, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_afterglow"));
+    command.arg("inspect").arg(data(trace)).args(arguments);
+    command.env_remove("AFTERGLOW_PROFILE").output().expect("the program starts")
+}
+
+fn text(output: &Output) -> String {
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+#[test]
+fn draws_as_json_have_class_id_reason_and_triangles() {
+    let report: Value = serde_json::from_str(&text(&inspect(
+        "neverball.trace",
+        &["--draws", "--frames", "3..5", "--json", "-"],
+    )))
+    .unwrap();
+    let frames = report["frames"].as_array().unwrap();
+    assert_eq!(frames.iter().map(|f| f["index"].as_u64().unwrap()).collect::<Vec<_>>(), [3, 4]);
+    let frame = &frames[0];
+    assert_eq!(frame["camera"]["view"].as_array().unwrap().len(), 16);
+    let draws = frame["draws"].as_array().unwrap();
+    let sum = |class: &str| -> u64 {
+        let of_class = draws.iter().filter(|draw| draw["class"] == class);
+        of_class.map(|draw| draw["triangles"].as_u64().unwrap()).sum()
+    };
+    for (class, count) in frame["triangles"].as_object().unwrap() {
+        assert_eq!(sum(class), count.as_u64().unwrap(), "{class}");
+    }
+    for draw in draws {
+        assert_eq!(draw["id"].as_str().unwrap().len(), 16);
+        assert!(!draw["reason"].as_str().unwrap().is_empty());
+    }
+    assert!(draws.iter().any(|draw| draw["textures"][0].as_str().is_some_and(|hash| hash.len() == 16)));
+}
+
+#[test]
+fn a_table_has_a_line_a_draw_and_a_summary() {
+    let said = text(&inspect("glxgears.trace", &["--draws", "--frames", "2"]));
+    assert!(said.starts_with("frame 2:"), "{said}");
+    assert!(said.contains("1 frames (1 with a camera"), "{said}");
+    assert!(said.lines().filter(|line| line.contains("; triangles")).count() >= 3, "{said}");
+    assert!(text(&inspect("glxgears.trace", &["--classes"])).contains("means a frame"));
+}
+
+#[test]
+fn frames_that_are_not_there() {
+    let output = inspect("glxgears.trace", &["--draws", "--frames", "5000"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn pictures_are_painted_by_class() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    text(&inspect(
+        "neverball.trace",
+        &["--paint", out, "--frames", "3", "--size", "160x120", "--device", "lavapipe", "--validation"],
+    ));
+    for name in ["drawn", "class", "id", "layer", "light", "reason"] {
+        assert!(folder.path().join(format!("frame-000003-{name}.png")).exists(), "{name}");
+    }
+    assert!(folder.path().join("legend.png").exists());
+    let image = afterglow_metrics::io::load(&folder.path().join("frame-000003-class.png")).unwrap();
+    assert_eq!((image.width(), image.height()), (160, 120));
+}

@@ -11,6 +11,7 @@ mod images;
 mod lights;
 mod matrix;
 mod opacity;
+mod profile;
 mod recovery;
 mod sky;
 mod surfaces;
@@ -23,5 +24,6 @@ mod views;
 mod world;
 
 pub use images::ImageFacts;
+pub use profile::{Profile, ProfileChoice, ProfileError, shipped as shipped_profiles};
 pub use recovery::Recovery;
 pub use types::*;

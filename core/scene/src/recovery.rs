@@ -1,5 +1,7 @@
 //! Recovery: what is kept from frame to frame, and the steps from a frame to its scene.
 
+use std::sync::Arc;
+
 use afterglow_gl::frame::{Frame, ImageKey};
 use glam::{DMat3, Vec3};
 
@@ -9,6 +11,7 @@ use crate::geometry::ContentCache;
 use crate::images::{ImageFacts, Images};
 use crate::lights::{self, Lighting};
 use crate::matrix;
+use crate::profile::{Evidence, Overrides, Profile};
 use crate::sky;
 use crate::types::{Camera, Class, Scene, Verdict};
 use crate::views::Views;
@@ -25,12 +28,18 @@ pub struct Recovery {
     images: Images,
     cache: ContentCache,
     up: Option<Vec3>,
+    overrides: Overrides,
 }
 
 impl Recovery {
     /// A recovery that has seen nothing.
     pub fn new() -> Recovery {
         Recovery::default()
+    }
+
+    /// A recovery whose findings a profile overrides.
+    pub fn with_profile(profile: Option<Arc<Profile>>) -> Recovery {
+        Recovery { overrides: Overrides::new(profile), ..Recovery::default() }
     }
 
     /// Takes note of a frame's texture images. For frames that are not understood; cheap.
@@ -56,12 +65,20 @@ impl Recovery {
         let views = Views::split(frame);
         let transforms = draws::transforms(frame);
         let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
-        let Some(world) = World::find(frame, &views, &draws, &transforms) else {
-            return flat_scene(&draws);
+        let found = World::find(frame, &views, &draws, &transforms);
+        let view = found.as_ref().map(|world| world.view_rigid);
+        let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view };
+        let Some(world) = found else {
+            let mut scene = flat_scene(&draws);
+            self.overrides.classes(evidence, &self.images, &mut scene.verdicts);
+            return scene;
         };
-        let verdicts = classify(frame, &transforms, &views, &world, &draws);
+        let mut verdicts = classify(frame, &transforms, &views, &world, &draws);
+        self.overrides.classes(evidence, &self.images, &mut verdicts);
         let background = views.views[world.view].background;
-        self.light(frame, &world, &draws, &transforms, verdicts, background)
+        let mut scene = self.light(frame, &world, &draws, &transforms, verdicts, background);
+        self.overrides.scene(evidence, &self.images, &mut scene);
+        scene
     }
 
     fn light(

@@ -86,7 +86,7 @@ pub struct Verdict {
     pub operation: u32,
     /// What it is.
     pub class: Class,
-    /// Why, in a few words.
+    /// Why, in a few words; a profile's own where it decided.
     pub reason: &'static str,
     /// Object to world space; identity unless the draw belongs to the world. Static draws of a world that the
     /// program scales keep the scale here, since the camera is rigid.
@@ -117,6 +117,8 @@ pub struct Deformed {
 pub enum LightOrigin {
     /// glLight.
     Gl(u8),
+    /// The program's profile.
+    Profile,
     /// Nothing was found: a soft sun.
     Fallback,
 }
@@ -126,6 +128,7 @@ impl fmt::Display for LightOrigin {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             LightOrigin::Gl(number) => write!(f, "GL_LIGHT{number}"),
+            LightOrigin::Profile => f.write_str("profile"),
             LightOrigin::Fallback => f.write_str("fallback"),
         }
     }

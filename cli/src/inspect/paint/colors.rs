@@ -91,23 +91,22 @@ pub enum Source {
     Baked,
     /// The made-up sun.
     Fallback,
-    /// Other lights than these.
-    Other,
+    /// The program's profile.
+    Profile,
     /// Not traced.
     None,
 }
 
 impl Source {
     /// All, in the legend's order.
-    pub const ALL: [Source; 5] = [Source::Gl, Source::Baked, Source::Fallback, Source::Other, Source::None];
+    pub const ALL: [Source; 5] = [Source::Gl, Source::Baked, Source::Fallback, Source::Profile, Source::None];
 
     /// Of a light.
     pub fn of(origin: LightOrigin) -> Source {
         match origin {
             LightOrigin::Gl(_) => Source::Gl,
             LightOrigin::Fallback => Source::Fallback,
-            #[allow(unreachable_patterns, reason = "origins that are told apart in the tables alone")]
-            _ => Source::Other,
+            LightOrigin::Profile => Source::Profile,
         }
     }
 
@@ -138,7 +137,7 @@ impl Source {
             Source::Gl => ("the program's lights (glLight)", [255, 225, 70]),
             Source::Baked => ("the program's colours as they are", [240, 130, 50]),
             Source::Fallback => ("a made-up sun: nothing else was found", [90, 160, 255]),
-            Source::Other => ("other lights", [80, 210, 100]),
+            Source::Profile => ("lights of the profile", [80, 210, 100]),
             Source::None => ("not traced", BESIDE),
         }
     }

@@ -49,7 +49,7 @@ impl Highlights {
     fn of(&self, light: &SceneLight) -> [f32; 3] {
         let color = match light.origin {
             LightOrigin::Gl(number) => self.colors.get(usize::from(number)).copied().flatten(),
-            LightOrigin::Fallback => None,
+            LightOrigin::Profile | LightOrigin::Fallback => None,
         };
         color.unwrap_or_default().map(|c| linear_from_srgb(c.clamp(0.0, 1.0)))
     }

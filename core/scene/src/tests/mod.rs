@@ -4,4 +4,5 @@ mod camera;
 mod classes;
 mod layers;
 mod lights;
+mod profile;
 mod robustness;

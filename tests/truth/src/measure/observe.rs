@@ -41,7 +41,7 @@ impl Observed {
         });
         let lights = scene.lights.iter().filter_map(|light| match light.origin {
             LightOrigin::Gl(index) => Some((index, light.shape)),
-            LightOrigin::Fallback => None,
+            LightOrigin::Profile | LightOrigin::Fallback => None,
         });
         Observed { camera, lights: lights.collect(), runs: runs.filter(|run| run.triangles > 0).collect() }
     }

@@ -7,6 +7,7 @@ mod calls;
 mod draws;
 mod paint;
 mod play;
+mod propose;
 mod rows;
 mod summary;
 
@@ -15,7 +16,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::options::{DeviceArguments, Frames, Size};
+use crate::options::{DeviceArguments, Frames, ProfileArguments, Size};
 
 /// Arguments of `inspect`.
 #[derive(Debug, Args)]
@@ -40,9 +41,17 @@ pub struct Arguments {
     /// What the pictures are coloured by; all of it unless it is said
     #[arg(long, value_enum, value_delimiter = ',', value_name = "BY", requires = "paint")]
     by: Vec<paint::By>,
+    /// Of the frames, only every Nth
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..), conflicts_with = "calls")]
+    every: u64,
+    /// Write a profile to start from: what is found, texture by texture
+    #[arg(long, value_name = "FILE", conflicts_with = "calls")]
+    propose: Option<PathBuf>,
     /// Size of the pictures; the default is the traced window's
     #[arg(long, value_name = "WxH", requires = "paint")]
     size: Option<Size>,
+    #[command(flatten)]
+    profile: ProfileArguments,
     #[command(flatten)]
     device: DeviceArguments,
     /// Also write what was asked for as JSON (`-`: to standard output)
@@ -53,7 +62,7 @@ pub struct Arguments {
 impl Arguments {
     /// Whether draws have to be understood.
     fn is_about_draws(&self) -> bool {
-        self.draws || self.classes || self.paint.is_some()
+        self.draws || self.classes || self.paint.is_some() || self.propose.is_some()
     }
 
     /// Whether standard output is a JSON file.

@@ -78,3 +78,35 @@ fn pictures_are_painted_by_class() {
     let image = afterglow_metrics::io::load(&folder.path().join("frame-000003-class.png")).unwrap();
     assert_eq!((image.width(), image.height()), (160, 120));
 }
+
+#[test]
+fn a_proposal_changes_nothing_and_a_rule_of_it_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("proposal.toml");
+    let path = file.to_str().unwrap();
+    text(&inspect("neverball.trace", &["--propose", path, "--frames", "5"]));
+    let classes = |profile: &str| {
+        let said = text(&inspect("neverball.trace", &["--classes", "--frames", "5", "--profile", profile]));
+        // The first line tells how long it took.
+        said.lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(classes(path), classes("none"));
+    let proposal = std::fs::read_to_string(&file).unwrap();
+    let start = proposal.find("# [[class]]").unwrap();
+    let end = start + proposal[start..].find("\n\n").unwrap();
+    let rule = proposal[start..end].replace("# ", "");
+    let rule = rule.lines().map(|line| if line.starts_with("is =") { "is = \"dropped\"" } else { line });
+    std::fs::write(&file, rule.collect::<Vec<_>>().join("\n")).unwrap();
+    assert!(classes(path).iter().any(|line| line.ends_with("dropped: the profile says so")));
+}
+
+#[test]
+fn a_profile_that_is_none_is_told_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("bad.toml");
+    std::fs::write(&file, "name = 'a'\n[[class]]\nis = 'nothing'\nwhen = { lit = true }\n").unwrap();
+    let output = inspect("glxgears.trace", &["--classes", "--profile", file.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(said.contains("bad.toml") && said.contains("line 3"), "{said}");
+}

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::Arguments;
 use super::paint::Painter;
 use super::play::{self, Event, Judged, Visitor};
+use super::propose::Proposal;
 use super::rows::FrameRows;
 use super::summary::Summary;
 use crate::failure::Failure;
@@ -24,6 +25,7 @@ struct Report {
 struct Inspection<'a> {
     arguments: &'a Arguments,
     painter: Option<Painter<'a>>,
+    proposal: Option<Proposal>,
     report: Report,
 }
 
@@ -31,11 +33,16 @@ struct Inspection<'a> {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let frames = arguments.frames();
     let painter = arguments.paint.as_deref().map(|folder| Painter::new(arguments, folder)).transpose()?;
-    let mut inspection = Inspection { arguments, painter, report: Report::default() };
-    let played = play::play(&arguments.trace, frames.end, Recovery::new(), &mut inspection);
-    let Inspection { painter, mut report, .. } = inspection;
+    let proposal = arguments.propose.as_ref().map(|_| Proposal::default());
+    let mut inspection = Inspection { arguments, painter, proposal, report: Report::default() };
+    let recovery = Recovery::with_profile(arguments.profile.load_for_trace(&arguments.trace)?);
+    let played = play::play(&arguments.trace, frames.end, recovery, &mut inspection);
+    let Inspection { painter, proposal, mut report, .. } = inspection;
     if let Some(painter) = painter {
         painter.finish()?;
+    }
+    if let Some((proposal, path)) = proposal.zip(arguments.propose.as_ref()) {
+        proposal.write(&arguments.trace, path)?;
     }
     report.summary.finish();
     if !arguments.prints_json() && (arguments.draws || arguments.classes) {
@@ -53,7 +60,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 impl Visitor for Inspection<'_> {
     fn frame(&mut self, index: u64, events: Vec<Event>, recovery: &Recovery) -> Result<(), Failure> {
-        let wanted = self.arguments.frames().contains(&index);
+        let frames = self.arguments.frames();
+        let wanted = frames.contains(&index) && (index - frames.start).is_multiple_of(self.arguments.every);
         for event in events {
             match event {
                 Event::Shown(judged) if wanted => self.shown(index, *judged, recovery)?,
@@ -69,6 +77,9 @@ impl Inspection<'_> {
     fn shown(&mut self, index: u64, judged: Judged, recovery: &Recovery) -> Result<(), Failure> {
         let Judged { frame, scene, time } = judged;
         self.report.summary.add(&scene, time);
+        if let Some(proposal) = &mut self.proposal {
+            proposal.add(&frame, &scene, recovery);
+        }
         if self.arguments.draws {
             let rows = FrameRows::of(index, &frame, &scene, recovery);
             if !self.arguments.prints_json() {

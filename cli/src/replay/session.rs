@@ -105,7 +105,7 @@ impl Session {
         options.timing = arguments.wants_timing();
         let mut renderer = Renderer::new(&gpu, &options).map_err(failed)?;
         if arguments.mode == Mode::Pathtrace {
-            renderer.set_mode(render::Mode::Pathtrace, &arguments.pathtrace_options()).map_err(failed)?;
+            renderer.set_mode(render::Mode::Pathtrace, &arguments.pathtrace_options()?).map_err(failed)?;
         }
         let lit = Arc::new(AtomicBool::new(true));
         Ok(Session { renderer: Arc::new(Mutex::new(renderer)), gpu, lit, size: arguments.size })

@@ -15,8 +15,10 @@ pub enum Pattern {
     Solid,
     /// Every other one.
     Checkered,
-    /// Stripes, one pixel in four.
+    /// Stripes, one pixel in eight.
     Striped,
+    /// None.
+    Hidden,
 }
 
 /// How a draw is painted.
@@ -193,13 +195,15 @@ pub fn swatches(by: By, frame: &Frame, scene: &Scene) -> Vec<Swatch> {
             By::Light => Source::on(frame, draw, verdict, scene).color().1,
             By::Reason => reason_color(verdict.reason),
         };
-        Swatch { rgb, pattern: pattern(frame, draw, verdict) }
+        Swatch { rgb, pattern: pattern(by, frame, draw, verdict) }
     };
     frame.draws().zip(&scene.verdicts).map(swatch).collect()
 }
 
-fn pattern(frame: &Frame, draw: &Draw, verdict: &Verdict) -> Pattern {
+fn pattern(by: By, frame: &Frame, draw: &Draw, verdict: &Verdict) -> Pattern {
     match verdict.class {
+        // The surface below tells how it is lit.
+        Class::Layer if by == By::Light => Pattern::Hidden,
         Class::Layer => Pattern::Striped,
         // The sky hides only what was cleared.
         class if class.is_traced() || class == Class::Sky => Pattern::Solid,

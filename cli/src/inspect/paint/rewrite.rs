@@ -172,8 +172,9 @@ fn color(constants: &mut Environment, rgb: Rgb) {
 fn stipple(pattern: Pattern) -> [u32; 32] {
     std::array::from_fn(|row| match pattern {
         Pattern::Solid => !0,
+        Pattern::Hidden => 0,
         Pattern::Checkered => 0x5555_5555 << (row % 2),
-        Pattern::Striped => 0x1111_1111 << (row % 4),
+        Pattern::Striped => 0x0101_0101 << (row % 8),
     })
 }
 
@@ -244,6 +245,7 @@ mod tests {
     #[test]
     fn patterns_leave_what_they_say() {
         let ones = |pattern| stipple(pattern).iter().map(|row| row.count_ones()).sum::<u32>();
-        assert_eq!([Pattern::Solid, Pattern::Checkered, Pattern::Striped].map(ones), [1024, 512, 256]);
+        let patterns = [Pattern::Solid, Pattern::Checkered, Pattern::Striped, Pattern::Hidden];
+        assert_eq!(patterns.map(ones), [1024, 512, 128, 0]);
     }
 }

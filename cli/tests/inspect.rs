@@ -77,6 +77,27 @@ fn pictures_are_painted_by_class() {
     assert!(folder.path().join("legend.png").exists());
     let image = afterglow_metrics::io::load(&folder.path().join("frame-000003-class.png")).unwrap();
     assert_eq!((image.width(), image.height()), (160, 120));
+    // Static is a grey, movable an orange, the sky a blue, however bright the program drew them.
+    let share = |is: &dyn Fn([f32; 3]) -> bool| {
+        image.pixels().iter().filter(|pixel| is(**pixel)).count() as f64 / image.pixels().len() as f64
+    };
+    assert!(share(&|[r, _, b]| r > 0.2 && b > 0.85 * r && b < r) > 0.1);
+    assert!(share(&|[r, _, b]| b > 0.3 && r < 0.4 * b) > 0.1);
+}
+
+#[test]
+fn only_what_is_asked_for_is_painted() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().to_str().unwrap();
+    let frames = ["--frames", "2..7", "--every", "3", "--by", "class,id", "--device", "lavapipe"];
+    text(&inspect("glxgears.trace", &[&["--paint", out], &frames[..]].concat()));
+    let mut names: Vec<_> = std::fs::read_dir(out)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    let of = |frame: u32| ["class", "drawn", "id"].map(|by| format!("frame-{frame:06}-{by}.png"));
+    assert_eq!(names, [&of(2)[..], &of(5), &["legend.png".into()]].concat());
 }
 
 #[test]

@@ -238,3 +238,30 @@ fn sizes_are_bounded() {
     assert!(refused(&format!("name = '{}'", "x".repeat(200))).contains("120 bytes"));
     refused(&format!("name = {}", "[".repeat(100_000)));
 }
+
+#[test]
+fn the_manuals_example_is_a_profile() {
+    let manual = include_str!("../../../../docs/profiles.md");
+    let example = manual.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    assert_ne!(parse(example), Profile::default());
+}
+
+proptest::proptest! {
+    #[test]
+    fn damaged_profiles_are_errors_or_profiles(
+        places in proptest::collection::vec((0usize..4096, proptest::prelude::any::<u8>()), 1..6),
+    ) {
+        let manual = include_str!("../../../../docs/profiles.md");
+        let example = manual.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+        let mut bytes = example.as_bytes().to_vec();
+        for (place, byte) in places {
+            let length = bytes.len();
+            bytes[place % length] = byte & 127;
+        }
+        let text = String::from_utf8(bytes).unwrap();
+        if let Ok(profile) = Profile::parse("damaged", &text) {
+            let scene = Recovery::with_profile(Some(Arc::new(profile))).understand(&mut sketch().0.frame);
+            assert!(scene.lights.iter().all(|light| light.color.is_finite()));
+        }
+    }
+}

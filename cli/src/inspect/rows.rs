@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use afterglow_gl::frame::{Bindings, Compare, Draw, FixedState, Frame, Viewport};
+use afterglow_gl::frame::{Bindings, Compare, Draw, FixedState, Frame, TextureBinding, Viewport};
 use afterglow_scene::{Recovery, Scene, Verdict};
 use serde::Serialize;
 
@@ -125,12 +125,12 @@ fn rows_of(matrix: &[f64; 16]) -> String {
 fn textures(frame: &Frame, draw: &Draw, recovery: &Recovery) -> Vec<String> {
     let units = &frame.fixed[draw.fixed as usize].words.units;
     let bindings: Bindings = frame.bindings.get(draw.bindings as usize).copied().unwrap_or_default();
-    let name = |(_, binding): (_, &Option<_>)| {
-        let binding: &Option<afterglow_gl::frame::TextureBinding> = binding;
-        let image = binding.as_ref().and_then(|binding| recovery.image(binding.image));
+    let name = |binding: &Option<TextureBinding>| {
+        let image = binding.and_then(|binding| recovery.image(binding.image));
         image.map_or_else(|| "?".into(), |image| format!("{:016x}", image.content()))
     };
-    units.iter().zip(&bindings).filter(|(unit, _)| unit.target() != 0).map(name).collect()
+    let used = units.iter().zip(&bindings).filter(|(unit, _)| unit.target() != 0);
+    used.map(|(_, binding)| name(binding)).collect()
 }
 
 /// What of a draw's state is not as usual.
@@ -138,11 +138,7 @@ fn state(frame: &Frame, draw: &Draw) -> String {
     let FixedState { words, raster } = &frame.fixed[draw.fixed as usize];
     let Viewport { rect, depth_range, .. } = frame.viewports[draw.viewport as usize];
     let mut parts = vec![format!("{:?}", draw.topology).to_lowercase()];
-    let mut note = |is_so: bool, text: &dyn Fn() -> String| {
-        if is_so {
-            parts.push(text());
-        }
-    };
+    let mut note = |holds: bool, text: &dyn Fn() -> String| parts.extend(holds.then(text));
     note(words.global.lighting() != 0, &|| format!("lights {:b}", words.global.lights()));
     note(true, &|| match raster.depth {
         None => "no depth test".into(),

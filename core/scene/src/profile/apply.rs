@@ -25,7 +25,7 @@ pub(crate) struct Evidence<'a> {
     pub(crate) frame: &'a Frame,
     pub(crate) draws: &'a [DrawFacts<'a>],
     pub(crate) transforms: &'a [TransformFacts],
-    /// World space to the space after MODELVIEW; none in a frame without a world.
+    /// World to eye space; none in a frame without a world.
     pub(crate) view: Option<DMat4>,
 }
 
@@ -68,8 +68,8 @@ impl Overrides {
         }
         match profile.camera_of(evidence, images, &scene.verdicts) {
             Some((CameraKind::None, _)) => return rasterize(scene),
-            Some((CameraKind::View, modelview)) => {
-                let change = evidence.view.map(|view| matrix::rigid_inverse(rigid(modelview)) * view);
+            Some((CameraKind::View, eye)) => {
+                let change = evidence.view.map(|view| matrix::rigid_inverse(rigid(eye)) * view);
                 if let Some(change) = change.filter(|change| matrix::is_sound(*change)) {
                     move_world(scene, change, world_before);
                     self.world_before = Some(change);
@@ -89,7 +89,7 @@ impl Profile {
         rule.map(|rule| (rule.is.class(), rule.why.0)).or_else(sky)
     }
 
-    /// What the first camera rule says that is for any draw, and that draw's MODELVIEW.
+    /// What the first camera rule says that is for any draw, and that draw's way from object to eye space.
     fn camera_of(
         &self,
         evidence: Evidence,
@@ -102,7 +102,7 @@ impl Profile {
             let (facts, _) = draws.find(|(facts, verdict)| {
                 rule.condition().holds(&evidence.subject(facts, images, verdict.class, world))
             })?;
-            Some((rule.is, evidence.transforms[facts.transform].modelview))
+            Some((rule.is, evidence.transforms[facts.transform].eye))
         })
     }
 
@@ -143,7 +143,7 @@ impl<'a> Evidence<'a> {
                 Some((first, _)) if facts.operation >= first => Order::Amid,
                 _ => Order::Early,
             },
-            matrix: matrix_kind(transform.modelview, self.view),
+            matrix: matrix_kind(transform, self.view),
             class,
         }
     }
@@ -151,8 +151,8 @@ impl<'a> Evidence<'a> {
     /// A verdict as it is when a draw has another class.
     fn as_class(&self, facts: &DrawFacts, verdict: Verdict, class: Class) -> Verdict {
         let model = || {
-            let modelview = self.transforms[facts.transform].modelview;
-            let model = self.view.map(|view| matrix::rigid_inverse(view) * modelview);
+            let eye = self.transforms[facts.transform].eye;
+            let model = self.view.map(|view| matrix::rigid_inverse(view) * eye);
             model.filter(|model| matrix::is_sound(*model)).map_or(Mat4::IDENTITY, |model| model.as_mat4())
         };
         match (verdict.class.is_traced(), class.is_traced()) {
@@ -173,26 +173,26 @@ fn world_of(verdicts: &[Verdict]) -> Option<(u32, u32)> {
     Some((first, traced.next_back().map_or(first, |last| last.operation)))
 }
 
-fn matrix_kind(modelview: DMat4, view: Option<DMat4>) -> MatrixKind {
+fn matrix_kind(transform: &TransformFacts, view: Option<DMat4>) -> MatrixKind {
     let turn = |m: DMat4| DMat3::from_mat4(matrix::orthonormal(m));
     let place = |m: DMat4| m.col(3).truncate();
-    let (Some(view), true) = (view, matrix::similarity(modelview).is_some()) else {
-        return if modelview == DMat4::IDENTITY { MatrixKind::Identity } else { MatrixKind::Own };
-    };
     let near = |a: DVec3, b: DVec3| a.distance(b) <= SAME_PLACE * a.length().max(b.length()).max(1e-3);
-    if turn(modelview).abs_diff_eq(turn(view), SAME_TURN) {
-        if near(place(modelview), place(view)) {
+    let eye = transform.eye;
+    if let Some(view) = view.filter(|_| matrix::similarity(eye).is_some())
+        && turn(eye).abs_diff_eq(turn(view), SAME_TURN)
+    {
+        if near(place(eye), place(view)) {
             return MatrixKind::View;
         }
-        if place(modelview).length() <= SAME_PLACE * place(view).length() {
+        if place(eye).length() <= SAME_PLACE * place(view).length() {
             return MatrixKind::Turned;
         }
     }
-    if modelview == DMat4::IDENTITY { MatrixKind::Identity } else { MatrixKind::Own }
+    if transform.modelview == DMat4::IDENTITY { MatrixKind::Identity } else { MatrixKind::Own }
 }
 
-fn rigid(modelview: DMat4) -> DMat4 {
-    matrix::similarity(modelview).map_or_else(|| matrix::orthonormal(modelview), |found| found.rigid)
+fn rigid(eye: DMat4) -> DMat4 {
+    matrix::similarity(eye).map_or_else(|| matrix::orthonormal(eye), |found| found.rigid)
 }
 
 /// Leaves a scene without a world.

@@ -1,0 +1,182 @@
+//! Things of a program followed from frame to frame, with all frames at hand: which draws are the same thing, and whether
+//! it ever moves or changes its shape.
+
+use std::collections::HashMap;
+
+use afterglow_scene::Class;
+use glam::{DMat4, DVec3, Vec3};
+
+use crate::truth::UNNAMED;
+
+/// A thing as it was drawn once.
+#[derive(Debug, Clone, Copy)]
+pub struct Sight {
+    /// In which frame.
+    pub frame: usize,
+    /// By which draw of it.
+    pub draw: usize,
+    /// What only sights of like things share.
+    pub kind: u64,
+    /// Hash of its shape.
+    pub content: u64,
+    /// Three points of it, world space.
+    points: [DVec3; 3],
+}
+
+impl Sight {
+    /// The sight of a thing whose bounds in object space are these, under a model matrix.
+    pub fn new(at: [usize; 2], [kind, content]: [u64; 2], model: DMat4, [least, most]: [Vec3; 2]) -> Sight {
+        let points = [least, most, Vec3::new(least.x, most.y, (least.z + most.z) / 2.0)];
+        let points = points.map(|point| model.transform_point3(point.as_dvec3()));
+        Sight { frame: at[0], draw: at[1], kind, content, points }
+    }
+
+    fn distance(&self, other: &Sight) -> f64 {
+        let pairs = self.points.iter().zip(&other.points);
+        pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+    }
+}
+
+/// How far things move, in the program's units.
+#[derive(Debug, Clone, Copy)]
+pub struct Motion {
+    /// Less is rounding.
+    pub least: f64,
+    /// From frame to frame, at most.
+    pub most: f64,
+}
+
+/// What was found of a thing.
+#[derive(Debug, Clone)]
+struct Thing {
+    object: u64,
+    first: Sight,
+    last: Sight,
+    /// How often it was seen.
+    sights: usize,
+    /// Frame in which it was first seen elsewhere or turned, or from which on that could be known.
+    moved: Option<usize>,
+    /// The same of another shape.
+    changed: Option<usize>,
+    /// Whether it was once mistaken, perhaps, for another thing of its kind nearby.
+    is_ambiguous: bool,
+}
+
+/// Things by their sights.
+#[derive(Debug, Default)]
+pub struct Things {
+    things: Vec<Thing>,
+    /// By frame and draw, the index of the thing.
+    of: HashMap<[usize; 2], usize>,
+}
+
+/// Sights from which on a thing that rests is taken to stand.
+const SETTLED: usize = 8;
+
+/// Frames for which a thing that was lost from sight may turn up elsewhere.
+const MEMORY: usize = 10;
+
+impl Things {
+    /// Follows things. `sights` are in the order of frames; objects are numbered from `first`.
+    pub fn follow(sights: &[Sight], motion: Motion, first: u64) -> Things {
+        let mut things = Things::default();
+        let mut by_kind: HashMap<u64, Vec<usize>> = HashMap::new();
+        for frame in sights.chunk_by(|a, b| a.frame == b.frame) {
+            let mut sorted: Vec<&Sight> = frame.iter().collect();
+            sorted.sort_by_key(|sight| (sight.kind, sight.draw));
+            for alike in sorted.chunk_by(|a, b| a.kind == b.kind) {
+                things.assign(alike, by_kind.entry(alike[0].kind).or_default(), motion, first);
+            }
+        }
+        things
+    }
+
+    /// Finds the things that sights of one kind in one frame are of: those that are nearest to each other first.
+    fn assign(&mut self, sights: &[&Sight], known: &mut Vec<usize>, motion: Motion, first: u64) {
+        let mut pairs = Vec::new();
+        for (s, sight) in sights.iter().enumerate() {
+            for &thing in known.iter() {
+                let last = &self.things[thing].last;
+                let distance = sight.distance(last);
+                let rests = distance <= motion.least;
+                let frames = sight.frame - last.frame;
+                if rests || (frames <= MEMORY && distance <= motion.most * frames.min(2) as f64) {
+                    pairs.push((distance, s, thing));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        let mut taken = vec![None; sights.len()];
+        for &(distance, s, thing) in &pairs {
+            if taken[s].is_none() && !taken.contains(&Some(thing)) {
+                taken[s] = Some(thing);
+                // Where two things may be the one that a sight is of, either may have been taken.
+                let is_rival = |&(other, s_2, thing_2): &(f64, usize, usize)| {
+                    (s == s_2) != (thing == thing_2) && other < 3.0 * distance
+                };
+                let moves = distance > motion.least;
+                self.things[thing].is_ambiguous |= moves && pairs.iter().any(is_rival);
+            }
+        }
+        for (sight, taken) in sights.iter().zip(taken) {
+            let thing = taken.unwrap_or_else(|| {
+                let object = first + self.things.len() as u64;
+                let (first, last) = (**sight, **sight);
+                let (moved, changed) = (None, None);
+                let thing = Thing { object, first, last, sights: 0, moved, changed, is_ambiguous: false };
+                self.things.push(thing);
+                known.push(self.things.len() - 1);
+                self.things.len() - 1
+            });
+            self.see(thing, sight, motion);
+            self.of.insert([sight.frame, sight.draw], thing);
+        }
+    }
+
+    fn see(&mut self, thing: usize, sight: &Sight, motion: Motion) {
+        let thing = &mut self.things[thing];
+        // What begins at once is known from the beginning.
+        let since = if thing.sights < SETTLED { thing.first.frame } else { sight.frame };
+        if sight.content != thing.first.content {
+            thing.changed.get_or_insert(since);
+        } else if sight.distance(&thing.first) > motion.least {
+            thing.moved.get_or_insert(since);
+        }
+        thing.sights += 1;
+        thing.last = *sight;
+    }
+
+    /// Class and object of what a draw shows. Before a thing that rested moves or changes for the first time, nothing tells
+    /// that it will, and what rests but was seen for a few frames only may be anything: then it is undecided.
+    pub fn class(&self, frame: usize, draw: usize) -> Option<(Class, u64)> {
+        let thing = &self.things[*self.of.get(&[frame, draw])?];
+        let class = match (thing.changed, thing.moved) {
+            (Some(since), _) if frame >= since => Class::Dynamic,
+            (None, Some(since)) if frame >= since => Class::Movable,
+            (None, None) if thing.sights >= SETTLED => Class::Static,
+            _ => Class::Undecided,
+        };
+        let is_nameless = thing.is_ambiguous && class != Class::Static;
+        Some((class, if is_nameless { UNNAMED + thing.object } else { thing.object }))
+    }
+}
+
+/// Numbers what is told apart by its content alone.
+#[derive(Debug)]
+pub struct Numbers {
+    known: HashMap<u64, u64>,
+    first: u64,
+}
+
+impl Numbers {
+    /// Numbers from `first` on.
+    pub fn from(first: u64) -> Numbers {
+        Numbers { known: HashMap::new(), first }
+    }
+
+    /// The number of what has that content.
+    pub fn of(&mut self, content: u64) -> u64 {
+        let next = self.first + self.known.len() as u64;
+        *self.known.entry(content).or_insert(next)
+    }
+}

@@ -95,6 +95,7 @@ fn tables(frame: &Frame) -> Frame {
         size: frame.size,
         device: frame.device,
         operations: Vec::with_capacity(frame.operations.len() + 1),
+        seams: frame.seams.clone(),
         words: frame.words.clone(),
         indices: frame.indices.clone(),
         retained: frame.retained.clone(),

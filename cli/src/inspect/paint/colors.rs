@@ -202,8 +202,9 @@ pub fn swatches(by: By, frame: &Frame, scene: &Scene) -> Vec<Swatch> {
 
 fn pattern(by: By, frame: &Frame, draw: &Draw, verdict: &Verdict) -> Pattern {
     match verdict.class {
-        // The surface below tells how it is lit.
+        // The surface below tells how it is lit, and whose it is.
         Class::Layer if by == By::Light => Pattern::Hidden,
+        Class::Layer if by == By::Id && verdict.object == 0 => Pattern::Hidden,
         Class::Layer => Pattern::Striped,
         // The sky hides only what was cleared.
         class if class.is_traced() || class == Class::Sky => Pattern::Solid,

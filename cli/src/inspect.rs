@@ -1,17 +1,22 @@
-//! `afterglow inspect`: what is in a trace.
+//! `afterglow inspect`: what is in a trace, and what its draws are understood as.
+//!
+//! Calls are counted and printed from the file alone (`calls`). Whatever is asked of draws needs the trace to be played
+//! into scene recovery (`play`), which no device has a part in; only pictures (`paint`) are made on one.
 
-use std::collections::BTreeMap;
-use std::io::{BufWriter, Write};
+mod calls;
+mod draws;
+mod paint;
+mod play;
+mod propose;
+mod rows;
+mod summary;
+
 use std::path::PathBuf;
 
-use afterglow_trace::dump::CallLine;
-use afterglow_trace::{Call, TraceReader};
 use clap::Args;
-use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::options::Frames;
-use crate::output;
+use crate::options::{DeviceArguments, Frames, ProfileArguments, Size};
 
 /// Arguments of `inspect`.
 #[derive(Debug, Args)]
@@ -24,88 +29,53 @@ pub struct Arguments {
     /// Print every call
     #[arg(long)]
     calls: bool,
-    /// Also write the summary as JSON (`-`: to standard output)
+    /// Print every draw: what it is taken for and why
+    #[arg(long, conflicts_with = "calls")]
+    draws: bool,
+    /// Print what draws are taken for, summed up by class and reason
+    #[arg(long, conflicts_with = "calls")]
+    classes: bool,
+    /// Write pictures coloured by what draws are taken for to this folder
+    #[arg(long, value_name = "DIR", conflicts_with = "calls")]
+    paint: Option<PathBuf>,
+    /// What the pictures are coloured by; all of it unless it is said
+    #[arg(long, value_enum, value_delimiter = ',', value_name = "BY", requires = "paint")]
+    by: Vec<paint::By>,
+    /// Of the frames, only every Nth
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..), conflicts_with = "calls")]
+    every: u64,
+    /// Write a profile to start from: what is found, texture by texture
+    #[arg(long, value_name = "FILE", conflicts_with = "calls")]
+    propose: Option<PathBuf>,
+    /// Size of the pictures; the default is the traced window's
+    #[arg(long, value_name = "WxH", requires = "paint")]
+    size: Option<Size>,
+    #[command(flatten)]
+    profile: ProfileArguments,
+    #[command(flatten)]
+    device: DeviceArguments,
+    /// Also write what was asked for as JSON (`-`: to standard output)
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
 
-#[derive(Debug, Default, Serialize)]
-struct Summary {
-    container: String,
-    version: u32,
-    frames: u64,
-    calls: u64,
-    bytes: u64,
-    functions: BTreeMap<String, u64>,
+impl Arguments {
+    /// Whether draws have to be understood.
+    fn is_about_draws(&self) -> bool {
+        self.draws || self.classes || self.paint.is_some() || self.propose.is_some()
+    }
+
+    /// Whether standard output is a JSON file.
+    fn prints_json(&self) -> bool {
+        self.json.as_deref() == Some(std::path::Path::new("-"))
+    }
+
+    fn frames(&self) -> std::ops::Range<u64> {
+        self.frames.clone().map_or(0..u64::MAX, |frames| frames.0)
+    }
 }
 
 /// Runs `inspect`.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let path = &arguments.trace;
-    let mut reader = TraceReader::open(path).map_err(|error| Failure::input(path, error))?;
-    let mut out = BufWriter::new(std::io::stdout().lock());
-    let mut summary = Summary {
-        container: format!("{:?}", reader.container()),
-        version: reader.version(),
-        ..Summary::default()
-    };
-    let frames = arguments.frames.clone().map_or(0..u64::MAX, |frames| frames.0);
-    let (mut call, mut counts) = (Call::default(), Vec::<u64>::new());
-    let end = loop {
-        match reader.next_call(&mut call) {
-            Ok(true) => {}
-            Ok(false) => break Ok(()),
-            Err(error) => break Err(Failure::input(path, error)),
-        }
-        let index = call.signature.index();
-        if frames.contains(&summary.frames) {
-            counts.resize(counts.len().max(index + 1), 0);
-            counts[index] += 1;
-            summary.calls += 1;
-            if arguments.calls && writeln!(out, "{}", CallLine::new(&call, reader.signatures())).is_err() {
-                // Whoever reads has gone away (`| head`): nothing is left to do.
-                return Ok(());
-            }
-        }
-        summary.frames += u64::from(afterglow_player::ends_frame(&reader.signature(call.signature).name));
-        if summary.frames >= frames.end {
-            break Ok(());
-        }
-    };
-    summary.bytes = reader.position();
-    for (index, count) in counts.iter().enumerate().filter(|(_, count)| **count > 0) {
-        let name = reader.signatures().functions()[index].name.to_string();
-        *summary.functions.entry(name).or_default() += count;
-    }
-    if !arguments.calls && arguments.json.is_none() {
-        drop(out);
-        output::print(|out| print(out, &summary))?;
-    } else {
-        drop(out);
-    }
-    if let Some(path) = &arguments.json {
-        output::write_json(path, &summary)?;
-    }
-    end?;
-    if summary.calls == 0 && arguments.frames.is_some() {
-        return Err(Failure::Usage(format!(
-            "the trace has {} frames, none of those asked for",
-            summary.frames
-        )));
-    }
-    crate::failure::trace_end(path, reader.end())
-}
-
-fn print(out: &mut impl Write, summary: &Summary) -> std::io::Result<()> {
-    writeln!(
-        out,
-        "{} frames, {} calls, {} bytes unpacked ({}, version {})",
-        summary.frames, summary.calls, summary.bytes, summary.container, summary.version
-    )?;
-    let mut functions: Vec<_> = summary.functions.iter().collect();
-    functions.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
-    for (name, count) in functions {
-        writeln!(out, "{count:>10}  {name}")?;
-    }
-    Ok(())
+    if arguments.is_about_draws() { draws::run(arguments) } else { calls::run(arguments) }
 }

@@ -4,6 +4,7 @@ mod bench;
 mod compare;
 mod doctor;
 mod failure;
+mod figures;
 mod inspect;
 mod libdir;
 mod manual;

@@ -1,10 +1,16 @@
 //! Options that commands share. Each is also the environment variable `AFTERGLOW_<NAME>`.
 
 use std::ops::Range;
+use std::path::Path;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use afterglow_gpu::GpuOptions;
+use afterglow_scene::{Profile, ProfileChoice, ProfileError};
+use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
+
+use crate::failure::Failure;
 
 /// How a frame becomes a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -45,6 +51,33 @@ impl DeviceArguments {
             synchronization_validation: self.validation,
             ..GpuOptions::default()
         }
+    }
+}
+
+/// What is known of the program beforehand.
+#[derive(Debug, Args)]
+pub struct ProfileArguments {
+    /// Profile of the program (TOML), or `none`; the default is the one that comes with Afterglow for a program of its name
+    #[arg(long, value_name = "FILE", env = "AFTERGLOW_PROFILE")]
+    pub profile: Option<ProfileChoice>,
+}
+
+impl ProfileArguments {
+    /// The profile for a program.
+    pub fn load(&self, program: Option<&Path>) -> Result<Option<Arc<Profile>>, Failure> {
+        let choice = self.profile.clone().unwrap_or_default();
+        choice.load(program).map_err(|error| match error {
+            ProfileError::Unreadable { path, source } => Failure::input(&path, source),
+            ProfileError::TooLarge(path) => Failure::input(&path, "too large for a profile"),
+            ProfileError::Malformed { name, reason } => Failure::input(Path::new(&name), reason),
+        })
+    }
+
+    /// The profile for the program that a trace is of, if the trace says which.
+    pub fn load_for_trace(&self, trace: &Path) -> Result<Option<Arc<Profile>>, Failure> {
+        let reader = TraceReader::open(trace).map_err(|error| Failure::input(trace, error))?;
+        let program = reader.properties().iter().find(|(name, _)| name == "process.name");
+        self.load(program.map(|(_, program)| Path::new(program.as_str())))
     }
 }
 

@@ -1,7 +1,7 @@
 //! `afterglow replay`: plays a captured trace and writes its pictures.
 
 mod report;
-mod session;
+pub mod session;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -13,7 +13,7 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::{self, Failure};
-use crate::options::{DeviceArguments, Frames, Mode, Size};
+use crate::options::{DeviceArguments, Frames, Mode, ProfileArguments, Size};
 use crate::output;
 use report::Report;
 use session::Session;
@@ -63,6 +63,8 @@ pub struct Arguments {
     #[arg(long, value_name = "I:X,Y,Z", hide_short_help = true)]
     pub debug_move_draw: Option<session::Move>,
     #[command(flatten)]
+    pub profile: ProfileArguments,
+    #[command(flatten)]
     pub device: DeviceArguments,
     /// Also write the figures as JSON (`-`: to standard output)
     #[arg(long, value_name = "FILE")]
@@ -90,14 +92,15 @@ impl Format {
 
 impl Arguments {
     /// How to trace.
-    fn pathtrace_options(&self) -> PathtraceOptions {
+    fn pathtrace_options(&self) -> Result<PathtraceOptions, Failure> {
         let mut options = PathtraceOptions::default();
         (options.spp, options.seed) = (self.spp, self.seed);
         options.filter = !self.no_filter;
+        options.profile = self.profile.load_for_trace(&self.trace)?;
         options.paint = self.paint.map_or(Paint::Picture, View::paint);
         options.move_light = self.debug_move_light.map(|m| (m.index as usize, m.offset.into()));
         options.move_draw = self.debug_move_draw.map(|m| (Displaced::Draw(m.index), m.offset.into()));
-        options
+        Ok(options)
     }
 
     /// Whether anybody will read how long the passes took.

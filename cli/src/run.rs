@@ -7,11 +7,12 @@ use std::process::Command;
 use std::{fs, io};
 
 use afterglow_gpu::Gpu;
+use afterglow_scene::ProfileChoice;
 use clap::Args;
 
 use crate::failure::Failure;
 use crate::libdir;
-use crate::options::{DeviceArguments, Mode};
+use crate::options::{DeviceArguments, Mode, ProfileArguments};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -33,6 +34,8 @@ pub struct Arguments {
     #[arg(long, env = "AFTERGLOW_HUD", value_parser = clap::builder::BoolishValueParser::new())]
     hud: bool,
     #[command(flatten)]
+    profile: ProfileArguments,
+    #[command(flatten)]
     device: DeviceArguments,
     /// The program and its arguments
     #[arg(required = true, trailing_var_arg = true, allow_hyphen_values = true, value_name = "COMMAND")]
@@ -49,6 +52,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Ok(gpu) => {
             drop(gpu);
             set_up(&mut command, arguments, &libdir::find()?);
+            if let Some(choice) = &arguments.profile.profile {
+                // A program starts only with a profile that can be read.
+                arguments.profile.load(None)?;
+                command.env("AFTERGLOW_PROFILE", profile(choice)?);
+            }
             if let Some(path) = &arguments.record {
                 command.env("AFTERGLOW_RECORD", recording(path)?);
             }
@@ -89,6 +97,17 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
     }
     if arguments.device.validation {
         command.env("AFTERGLOW_VALIDATION", "1");
+    }
+}
+
+/// A choice as the library reads it, wherever the program goes.
+fn profile(choice: &ProfileChoice) -> Result<OsString, Failure> {
+    match choice {
+        ProfileChoice::ByName => Ok(OsString::new()),
+        ProfileChoice::None => Ok("none".into()),
+        ProfileChoice::File(path) => {
+            std::path::absolute(path).map(Into::into).map_err(|error| Failure::input(path, error))
+        }
     }
 }
 

@@ -1,11 +1,12 @@
 //! Options from the environment, and where log lines go.
 
 use std::io::IsTerminal;
-use std::sync::Once;
+use std::sync::{Arc, Once};
 
 use afterglow_engine::EngineOptions;
 use afterglow_gpu::{Faults, GpuOptions};
 use afterglow_render::{Mode, PathtraceOptions};
+use afterglow_scene::{Profile, ProfileChoice};
 use tracing::level_filters::LevelFilter;
 
 /// Samples a pixel and frame unless asked otherwise: a program that is played cannot wait for more.
@@ -14,7 +15,7 @@ const LIVE_SAMPLES: u32 = 1;
 const MOST_SAMPLES: u32 = 65536;
 
 /// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
-/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED` and `AFTERGLOW_HUD`. A value that is not understood is logged and counts as absent.
+/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
 ///
 /// For tests: the device is lost at the submissions that `AFTERGLOW_DEBUG_LOSE_DEVICE` lists, counted from 1, and has
 /// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_NO_WINDOWS` it cannot show pictures itself.
@@ -32,6 +33,7 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
     let samples = parsed(variable, "AFTERGLOW_SPP", number).unwrap_or(LIVE_SAMPLES);
     pathtrace.spp = samples.clamp(1, MOST_SAMPLES);
     pathtrace.seed = parsed(variable, "AFTERGLOW_SEED", number).unwrap_or(pathtrace.seed);
+    pathtrace.profile = profile(variable);
     EngineOptions {
         gpu: GpuOptions {
             device: variable("AFTERGLOW_DEVICE").filter(|name| !name.is_empty()),
@@ -43,6 +45,17 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
         pathtrace,
         hud: parsed(variable, "AFTERGLOW_HUD", flag).unwrap_or(false),
     }
+}
+
+/// What is known of this program, from the file that is named or else by the program's own name.
+fn profile(variable: &dyn Fn(&str) -> Option<String>) -> Option<Arc<Profile>> {
+    let choice = parsed(variable, "AFTERGLOW_PROFILE", |value| value.parse::<ProfileChoice>().ok());
+    let program = std::env::current_exe().ok();
+    let loaded = choice.unwrap_or_default().load(program.as_deref());
+    loaded.unwrap_or_else(|error| {
+        tracing::warn!("there is no profile: {error}");
+        None
+    })
 }
 
 /// Failures to make up.
@@ -127,6 +140,7 @@ mod tests {
                 "AFTERGLOW_SPP" => "0",
                 "AFTERGLOW_SEED" => "minus one",
                 "AFTERGLOW_HUD" => "on",
+                "AFTERGLOW_PROFILE" => "/nowhere/at-all.toml",
                 "AFTERGLOW_DEBUG_LOSE_DEVICE" => "3, never",
                 _ => "",
             };
@@ -135,6 +149,7 @@ mod tests {
         assert_eq!(options.mode, Some(Mode::Raster));
         assert!(options.gpu.validation && options.gpu.device.is_none());
         assert_eq!((options.pathtrace.spp, options.pathtrace.seed), (1, 0));
+        assert_eq!(options.pathtrace.profile, None);
         assert!(options.hud && options.gpu.faults.losses.is_empty());
     }
 }

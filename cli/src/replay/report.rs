@@ -7,8 +7,9 @@ use std::time::Duration;
 use afterglow_gpu::DeviceInfo;
 use afterglow_player::PlayReport;
 use afterglow_render::{CulledReport, FrameReport, PassReport};
-use afterglow_scene::{Camera as SceneCamera, LightOrigin, LightShape, SceneLight};
 use serde::Serialize;
+
+use crate::figures::{Camera, Light};
 
 /// Everything that `replay --json` writes.
 #[derive(Serialize)]
@@ -37,27 +38,6 @@ struct Frame {
     culled: Vec<CulledReport>,
     bytes: Bytes,
     draws: usize,
-}
-
-/// The world's camera; matrices by columns.
-#[derive(Debug, Default, Serialize)]
-struct Camera {
-    found: bool,
-    view: Option<[f64; 16]>,
-    projection: Option<[f32; 16]>,
-}
-
-/// A light of the world, in world space.
-#[derive(Debug, Serialize)]
-struct Light {
-    origin: String,
-    /// Unit vector to a light that is infinitely far.
-    to_light: Option<[f32; 3]>,
-    position: Option<[f32; 3]>,
-    /// World units; of a light that is infinitely far, radians.
-    radius: f32,
-    /// Linear.
-    color: [f32; 3],
 }
 
 /// Memory of the frame's resources. None is shared yet: transients take as much as without aliasing.
@@ -202,36 +182,6 @@ impl Report {
             writeln!(out, "  {:>9.3} ms  {name}", ms / self.frames.len() as f64)?;
         }
         Ok(())
-    }
-}
-
-impl From<&SceneCamera> for Camera {
-    fn from(camera: &SceneCamera) -> Camera {
-        Camera {
-            found: true,
-            view: Some(camera.view.to_cols_array()),
-            projection: Some(camera.projection.to_cols_array()),
-        }
-    }
-}
-
-impl From<&SceneLight> for Light {
-    fn from(light: &SceneLight) -> Light {
-        let (to_light, position, radius) = match light.shape {
-            LightShape::Directional { to_light, angular_radius } => (Some(to_light), None, angular_radius),
-            LightShape::Point { position, radius, .. } => (None, Some(position), radius),
-        };
-        Light {
-            origin: match light.origin {
-                LightOrigin::Gl(number) => format!("GL_LIGHT{number}"),
-                LightOrigin::Program(id) => format!("program {id}"),
-                LightOrigin::Fallback => "fallback".into(),
-            },
-            to_light: to_light.map(Into::into),
-            position: position.map(Into::into),
-            radius,
-            color: light.color.into(),
-        }
     }
 }
 

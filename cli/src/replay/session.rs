@@ -89,7 +89,7 @@ impl Backend for Shared {
 }
 
 /// Drops what only draws: nobody will see it. A frame whose pixels become texels is drawn all the same.
-fn keep_state_only(frame: &mut Frame) {
+pub fn keep_state_only(frame: &mut Frame) {
     let reads = |operation: &Operation| matches!(operation, Operation::CopyToImage(_));
     if frame.operations.iter().any(reads) {
         return;
@@ -105,7 +105,7 @@ impl Session {
         options.timing = arguments.wants_timing();
         let mut renderer = Renderer::new(&gpu, &options).map_err(failed)?;
         if arguments.mode == Mode::Pathtrace {
-            renderer.set_mode(render::Mode::Pathtrace, &arguments.pathtrace_options()).map_err(failed)?;
+            renderer.set_mode(render::Mode::Pathtrace, &arguments.pathtrace_options()?).map_err(failed)?;
         }
         let lit = Arc::new(AtomicBool::new(true));
         Ok(Session { renderer: Arc::new(Mutex::new(renderer)), gpu, lit, size: arguments.size })

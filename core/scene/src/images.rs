@@ -46,6 +46,11 @@ impl ImageFacts {
         self.content
     }
 
+    /// Width, height, depth of level 0, texels, and what the texels mean.
+    pub fn shape(&self) -> &ImageShape {
+        &self.shape
+    }
+
     fn upload(&mut self, upload: &ImageUpload) {
         let region = &upload.region;
         if region.level != 0 || self.shape.format != TexelFormat::Rgba8 {

@@ -16,6 +16,7 @@ mod lights;
 mod matrix;
 mod objects;
 mod opacity;
+mod profile;
 mod recovery;
 mod shapes;
 mod sky;
@@ -29,5 +30,7 @@ mod types;
 mod views;
 mod world;
 
+pub use images::ImageFacts;
+pub use profile::{Profile, ProfileChoice, ProfileError, shipped as shipped_profiles};
 pub use recovery::Recovery;
 pub use types::*;

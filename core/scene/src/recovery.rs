@@ -1,14 +1,17 @@
 //! Recovery: what is kept from frame to frame, and the steps from a frame to its scene.
 
-use afterglow_gl::frame::Frame;
+use std::sync::Arc;
+
+use afterglow_gl::frame::{Frame, ImageKey};
 use glam::{DMat3, Vec3};
 
 use crate::classify::classify;
 use crate::draws::{self, DrawFacts, TransformFacts};
 use crate::geometry::ContentCache;
 use crate::hints;
-use crate::images::Images;
+use crate::images::{ImageFacts, Images};
 use crate::lights::{self, Lighting};
+use crate::profile::{Evidence, Overrides, Profile};
 use crate::shapes::Shapes;
 use crate::sky;
 use crate::tracking::{Track, Tracker};
@@ -30,6 +33,7 @@ pub struct Recovery {
     tracker: Tracker,
     up: Option<Vec3>,
     said: hints::Places,
+    overrides: Overrides,
 }
 
 impl Recovery {
@@ -38,10 +42,20 @@ impl Recovery {
         Recovery::default()
     }
 
+    /// A recovery whose findings a profile overrides.
+    pub fn with_profile(profile: Option<Arc<Profile>>) -> Recovery {
+        Recovery { overrides: Overrides::new(profile), ..Recovery::default() }
+    }
+
     /// Takes note of a frame's texture images. For frames that are not understood; cheap.
     pub fn observe(&mut self, frame: &Frame) {
         self.images.learn(frame);
         self.images.forget(frame);
+    }
+
+    /// What is known of an image of the frames so far, unless it was dropped.
+    pub fn image(&self, image: ImageKey) -> Option<&ImageFacts> {
+        self.images.get(image)
     }
 
     /// The scene that a frame draws. Sees to the frame's images as well.
@@ -60,13 +74,22 @@ impl Recovery {
         let transforms = draws::transforms(frame);
         let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
         let Some(mut world) = World::find(frame, &views, &draws, &transforms) else {
-            return flat_scene(&draws);
+            let mut scene = flat_scene(&draws);
+            let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: None };
+            self.overrides.classes(evidence, &self.images, &mut scene.verdicts);
+            return scene;
         };
         let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
-        let verdicts = classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks, &self.tracker);
+        let mut verdicts =
+            classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks, &self.tracker);
+        let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: Some(world.view) };
+        self.overrides.classes(evidence, &self.images, &mut verdicts);
         let background = views.views[world.place].background;
         let deformed = deformed(&draws, &verdicts, tracks);
-        Scene { deformed, ..self.light(frame, &world, &draws, &transforms, verdicts, background) }
+        let lit = self.light(frame, &world, &draws, &transforms, verdicts, background);
+        let mut scene = Scene { deformed, ..lit };
+        self.overrides.scene(evidence, &self.images, &mut scene);
+        scene
     }
 
     fn light(

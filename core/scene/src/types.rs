@@ -1,5 +1,7 @@
 //! What a scene is: the one type that goes from here to the renderer.
 
+use std::fmt;
+
 use glam::{DMat4, Mat4, Vec3};
 
 /// The camera that the world was drawn with.
@@ -39,6 +41,38 @@ pub enum Class {
 }
 
 impl Class {
+    /// All classes, in the order of [`TriangleCounts::named`].
+    pub const ALL: [Class; 11] = [
+        Class::Static,
+        Class::Movable,
+        Class::Dynamic,
+        Class::ViewModel,
+        Class::Translucent,
+        Class::Sky,
+        Class::Interface,
+        Class::Layer,
+        Class::OtherView,
+        Class::Dropped,
+        Class::Undecided,
+    ];
+
+    /// As reports and profiles write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Class::Static => "static",
+            Class::Movable => "movable",
+            Class::Dynamic => "dynamic",
+            Class::ViewModel => "view_model",
+            Class::Translucent => "translucent",
+            Class::Sky => "sky",
+            Class::Interface => "interface",
+            Class::Layer => "layer",
+            Class::OtherView => "mirrored",
+            Class::Dropped => "dropped",
+            Class::Undecided => "undecided",
+        }
+    }
+
     /// Whether the camera sees the draw through the visibility buffer.
     pub fn is_traced(self) -> bool {
         matches!(self, Class::Static | Class::Movable | Class::Dynamic | Class::ViewModel)
@@ -52,7 +86,7 @@ pub struct Verdict {
     pub operation: u32,
     /// What it is.
     pub class: Class,
-    /// Why, in a few words.
+    /// Why, in a few words; a profile's own where it decided.
     pub reason: &'static str,
     /// Object to world space; identity unless the draw belongs to the world. Static draws of a world that the
     /// program scales keep the scale here, since the camera is rigid.
@@ -85,8 +119,22 @@ pub enum LightOrigin {
     Gl(u8),
     /// The program has said it, by GL_AFTERGLOW_scene_hints; the name that it gave to the light.
     Program(u64),
+    /// The program's profile.
+    Profile,
     /// Nothing was found: a soft sun.
     Fallback,
+}
+
+/// As reports write it.
+impl fmt::Display for LightOrigin {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            LightOrigin::Gl(number) => write!(f, "GL_LIGHT{number}"),
+            LightOrigin::Program(id) => write!(f, "program {id}"),
+            LightOrigin::Profile => f.write_str("profile"),
+            LightOrigin::Fallback => f.write_str("fallback"),
+        }
+    }
 }
 
 /// Where a light is.
@@ -160,20 +208,8 @@ impl TriangleCounts {
     }
 
     /// The counts with their names, as reports write them.
-    pub fn named(&self) -> [(&'static str, u64); 11] {
-        [
-            ("static", self.r#static),
-            ("movable", self.movable),
-            ("dynamic", self.dynamic),
-            ("view_model", self.view_model),
-            ("translucent", self.translucent),
-            ("sky", self.sky),
-            ("interface", self.interface),
-            ("layer", self.layer),
-            ("mirrored", self.mirrored),
-            ("dropped", self.dropped),
-            ("undecided", self.undecided),
-        ]
+    pub fn named(mut self) -> [(&'static str, u64); 11] {
+        Class::ALL.map(|class| (class.name(), *self.of(class)))
     }
 }
 

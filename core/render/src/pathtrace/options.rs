@@ -1,7 +1,9 @@
 //! How a renderer traces.
 
+use std::sync::Arc;
+
 use afterglow_records::Paint;
-use afterglow_scene::Class;
+use afterglow_scene::{Class, Profile};
 use glam::Vec3;
 
 /// What a frame becomes.
@@ -35,6 +37,8 @@ pub struct PathtraceOptions {
     pub filter: bool,
     /// Go on with the last frame's samples while nothing changes.
     pub accumulate: bool,
+    /// What is known of the program. It holds from the first frame on: later changes count for new windows only.
+    pub profile: Option<Arc<Profile>>,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -50,6 +54,7 @@ impl Default for PathtraceOptions {
             seed: 0,
             filter: true,
             accumulate: true,
+            profile: None,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

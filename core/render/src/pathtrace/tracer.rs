@@ -80,8 +80,8 @@ impl Tracer {
 
     fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
         Self {
+            recovery: Recovery::with_profile(options.profile.clone()),
             options,
-            recovery: Recovery::new(),
             world: WorldBuilder::new(gpu),
             world_state: ResourceState::SETTLED,
             pipelines,

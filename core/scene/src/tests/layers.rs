@@ -48,13 +48,13 @@ fn a_layer_is_found_in_other_batches_but_not_under_another_matrix() {
 }
 
 #[test]
-fn stains_are_translucent() {
+fn stains_are_layers() {
     let (mut sketch, base) = room();
     sketch.blend(MULTIPLY);
     sketch.fixed.raster.depth_bias = Some(((-1.0).into(), (-2.0).into()));
     let stain = sketch.draw(&thing(1.0));
     let scene = Recovery::new().understand(&mut sketch.frame);
-    assert_eq!(class(&scene, stain), Class::Translucent);
+    assert_eq!(class(&scene, stain), Class::Layer);
     assert!(!verdict(&scene, base).baked && !scene.baked);
 }
 

@@ -5,4 +5,5 @@ mod classes;
 mod hints;
 mod layers;
 mod lights;
+mod profile;
 mod robustness;

@@ -10,6 +10,7 @@ mod geometry;
 mod images;
 mod lights;
 mod matrix;
+mod memory;
 mod opacity;
 mod recovery;
 mod sky;

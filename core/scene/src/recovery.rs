@@ -9,6 +9,7 @@ use crate::geometry::ContentCache;
 use crate::images::Images;
 use crate::lights::{self, Lighting};
 use crate::matrix;
+use crate::memory::{Memory, MemoryCounts};
 use crate::sky;
 use crate::types::{Camera, Class, Scene, Verdict};
 use crate::views::Views;
@@ -25,6 +26,7 @@ pub struct Recovery {
     images: Images,
     cache: ContentCache,
     up: Option<Vec3>,
+    memory: Memory,
 }
 
 impl Recovery {
@@ -33,16 +35,28 @@ impl Recovery {
         Recovery::default()
     }
 
+    /// Remembers so many bytes of the world that is not drawn, from now on; nothing of it with 0.
+    pub fn set_memory(&mut self, bytes: u64) {
+        self.memory.set_limit(bytes);
+    }
+
+    /// How much of the world is remembered.
+    pub fn memory(&self) -> MemoryCounts {
+        self.memory.counts()
+    }
+
     /// Takes note of a frame's texture images. For frames that are not understood; cheap.
     pub fn observe(&mut self, frame: &Frame) {
         self.images.learn(frame);
+        self.memory.observe(frame);
         self.images.forget(frame);
     }
 
     /// The scene that a frame draws. Sees to the frame's images as well.
     pub fn understand(&mut self, frame: &mut Frame) -> Scene {
         self.images.learn(frame);
-        let scene = self.scene(frame);
+        let mut scene = self.scene(frame);
+        self.memory.remember(frame, &mut scene);
         self.images.forget(frame);
         scene
     }
@@ -94,6 +108,8 @@ impl Recovery {
             sky,
             ambient,
             baked,
+            epoch: 0,
+            unseen: Vec::new(),
         }
     }
 

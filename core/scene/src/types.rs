@@ -2,6 +2,8 @@
 
 use glam::{DMat4, Mat4, Vec3};
 
+pub use crate::memory::{Look, MEMORY_BYTES, MISSING_FRAMES, MemoryCounts, Pass, Unseen};
+
 /// The camera that the world was drawn with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
@@ -202,4 +204,8 @@ pub struct Scene {
     pub ambient: Vec3,
     /// The world shows baked light (lightmaps, vertex colours) and has no light sources of its own.
     pub baked: bool,
+    /// Counts worlds: another level, or anything that has no place in common with what was drawn before, has another.
+    pub epoch: u64,
+    /// Static parts of the world that the program has drawn before, and in this frame not or not all of.
+    pub unseen: Vec<Unseen>,
 }

@@ -39,6 +39,8 @@ pub(crate) struct TraceInput<'a> {
 pub(crate) struct Surfaces<'a> {
     pub(crate) records: Vec<SurfaceDraw>,
     pub(crate) traced: Vec<Traced<'a>>,
+    /// How many of these the camera sees; they come first.
+    pub(crate) seen: usize,
     /// What each draw of the frame leaves in the visibility buffer.
     pub(crate) marks: Vec<DrawMark>,
     pub(crate) highlights: Highlights,
@@ -115,20 +117,38 @@ impl<'a> Gatherer<'a, '_> {
             Mark::Layer if is_there && place.draw.topology == Topology::Triangles => {
                 self.layer(place, verdict)?
             }
+            Mark::Unseen if is_there => {
+                self.unseen(place, verdict)?;
+                DrawMark::Kept
+            }
             Mark::Solid => DrawMark::Written(0),
-            Mark::Traced | Mark::Layer | Mark::Colorless => DrawMark::Kept,
+            Mark::Traced | Mark::Layer | Mark::Colorless | Mark::Unseen => DrawMark::Kept,
         })
     }
 
     fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
+        let (surface, kind) = self.surface(place, verdict)?;
+        self.surfaces.seen = self.surfaces.traced.len();
+        self.surfaces.highlights.note(self.input.frame, place.draw);
+        self.surfaces.kinds.push((place.operation, kind));
+        // Among baked surfaces the colours of what moves are a guess at its light.
+        let is_white = kind == SurfaceKind::BakedMover;
+        Ok(DrawMark::Written((surface + 1) | if is_white { WHITE_ALBEDO } else { 0 }))
+    }
+
+    /// What was drawn in an earlier frame: rays meet it, the camera does not see it.
+    fn unseen(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<(), GpuError> {
+        self.surface(place, verdict).map(|_| ())
+    }
+
+    /// Adds a surface that rays meet. Returns its number, and how light is found for it.
+    fn surface(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<(u32, SurfaceKind), GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let kind = self.lighting.kind(verdict, words);
         let (mask, meets) = masks(verdict.class, kind);
         let surface = self.record(place, verdict, kind, meets)?;
         let triangles = self.geometry.read(self.input.frame, place.draw);
         self.layers.add(surface, &triangles);
-        self.surfaces.highlights.note(self.input.frame, place.draw);
-        self.surfaces.kinds.push((place.operation, kind));
         self.surfaces.traced.push(Traced {
             surface,
             draw: place.draw,
@@ -137,9 +157,7 @@ impl<'a> Gatherer<'a, '_> {
             mask: mask as u8,
             is_alpha_tested: has_holes(&self.input.frame.fixed[place.draw.fixed as usize]),
         });
-        // Among baked surfaces the colours of what moves are a guess at its light.
-        let is_white = kind == SurfaceKind::BakedMover;
-        Ok(DrawMark::Written((surface + 1) | if is_white { WHITE_ALBEDO } else { 0 }))
+        Ok((surface, kind))
     }
 
     /// A layer matters to rays only where it lies on a surface that they meet.

@@ -1,7 +1,7 @@
 //! How a renderer traces.
 
 use afterglow_records::Paint;
-use afterglow_scene::Class;
+use afterglow_scene::{Class, MEMORY_BYTES};
 use glam::Vec3;
 
 /// What a frame becomes.
@@ -35,6 +35,8 @@ pub struct PathtraceOptions {
     pub filter: bool,
     /// Go on with the last frame's samples while nothing changes.
     pub accumulate: bool,
+    /// Bytes of the static world that is remembered when it is not drawn; 0 for none of it.
+    pub memory_bytes: u64,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -50,6 +52,7 @@ impl Default for PathtraceOptions {
             seed: 0,
             filter: true,
             accumulate: true,
+            memory_bytes: MEMORY_BYTES,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

@@ -51,7 +51,7 @@ const MOST_SMALL: usize = 8;
 /// Frames from one sweep of what is idle to the next, and frames after which it goes.
 const SWEEP_INTERVAL: u32 = 64;
 /// Kinds and places after which all is forgotten: programs make them without end.
-const MOST_KINDS: usize = 1 << 14;
+const MOST_KINDS: usize = 1 << 13;
 const MOST_PLACES: usize = 1 << 14;
 
 /// Triangles of the static world of which some were not drawn in the frame.

@@ -42,7 +42,6 @@ impl ImageFacts {
     }
 
     /// Hash of shape and texels of level 0, the same in all runs of a program: what names the image.
-    #[expect(dead_code, reason = "identity is built on it")]
     pub fn content(&self) -> u64 {
         self.content
     }
@@ -154,6 +153,16 @@ impl Images {
                 self.facts.remove(image);
             }
         }
+    }
+
+    /// Images by their content; of several with the same content, the first that was made.
+    pub fn by_content(&self) -> HashMap<u64, ImageKey> {
+        let mut images: HashMap<u64, ImageKey> = HashMap::new();
+        for (&image, facts) in &self.facts {
+            let known = images.entry(facts.content).or_insert(image);
+            *known = image.min(*known);
+        }
+        images
     }
 
     /// What is known of an image.

@@ -40,6 +40,12 @@ impl Recovery {
         self.memory.set_limit(bytes);
     }
 
+    /// Keeps what is remembered in a file, for the next run of the program; what the file holds is used where the
+    /// program draws the same world again. A file that cannot be read or written counts as empty.
+    pub fn set_cache(&mut self, path: std::path::PathBuf) {
+        self.memory.set_cache(path);
+    }
+
     /// How much of the world is remembered.
     pub fn memory(&self) -> MemoryCounts {
         self.memory.counts()
@@ -56,7 +62,7 @@ impl Recovery {
     pub fn understand(&mut self, frame: &mut Frame) -> Scene {
         self.images.learn(frame);
         let mut scene = self.scene(frame);
-        self.memory.remember(frame, &mut scene);
+        self.memory.remember(frame, &self.images, &mut scene);
         self.images.forget(frame);
         scene
     }
@@ -120,6 +126,14 @@ impl Recovery {
         let axis = nearest_axis(upward);
         let kept = self.up.filter(|up| up.dot(upward) > 0.2);
         *self.up.insert(kept.unwrap_or(axis))
+    }
+}
+
+/// What is remembered is written, if it is kept in a file.
+impl Drop for Recovery {
+    fn drop(&mut self) {
+        self.memory.save(&self.images);
+        self.memory.finish();
     }
 }
 

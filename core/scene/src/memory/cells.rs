@@ -62,6 +62,8 @@ pub struct Cell {
     pub drawn: (u32, u32),
     /// Bytes of what it keeps.
     pub bytes: u64,
+    /// Its triangles are not known one by one, only together: it has one entry.
+    pub is_whole: bool,
 }
 
 impl Cell {
@@ -72,7 +74,7 @@ impl Cell {
             bounds = [bounds[0].min(corner), bounds[1].max(corner)];
         }
         let bytes = passes.iter().map(Pass::bytes).sum::<u64>() + 64 * entries.len() as u64;
-        Cell { kind, passes: passes.into(), entries, bounds, drawn: (drawn, 0), bytes }
+        Cell { kind, passes: passes.into(), entries, bounds, drawn: (drawn, 0), bytes, is_whole: false }
     }
 
     /// Takes note that one of its entries is drawn.
@@ -85,13 +87,8 @@ impl Cell {
     }
 
     /// Whether all of it was drawn in a frame.
-    pub fn is_whole(&self, frame: u32) -> bool {
+    pub fn is_drawn(&self, frame: u32) -> bool {
         self.drawn == (frame, self.entries.len() as u32)
-    }
-
-    /// Whether its triangles are known one by one.
-    pub fn is_divisible(&self) -> bool {
-        self.passes.first().is_some_and(|pass| pass.index_count as usize == 3 * self.entries.len())
     }
 }
 

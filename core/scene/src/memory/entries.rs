@@ -55,6 +55,12 @@ impl Entries {
         self.numbers.contains_key(&key)
     }
 
+    /// Whether a key is known of something in a cell, or about to be.
+    pub fn is_remembered(&self, key: u64) -> bool {
+        let number = self.numbers.get(&key);
+        number.is_some_and(|number| self.all[*number as usize].sightings >= super::notice::SIGHTINGS)
+    }
+
     /// The entry of a number that was given.
     #[inline]
     pub fn get(&self, number: u32) -> &Entry {

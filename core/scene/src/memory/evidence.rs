@@ -50,7 +50,7 @@ impl Memory {
                 return;
             }
             let Some(cell) = self.cells[number].take() else { continue };
-            if cell.is_whole(self.now) || !may_be_seen(view.clip_from_world, cell.bounds) {
+            if cell.is_drawn(self.now) || !may_be_seen(view.clip_from_world, cell.bounds) {
                 self.cells[number] = Some(cell);
                 continue;
             }
@@ -89,7 +89,7 @@ impl Memory {
             Cull::Back => is_ccw != raster.front_ccw,
             Cull::Front => is_ccw == raster.front_ccw,
         };
-        let is_divisible = cell.is_divisible();
+        let is_divisible = !cell.is_whole;
         let step = if is_divisible { 1 } else { (pass.index_count as usize / 3).div_ceil(SAMPLES).max(1) };
         let mut is_any_visible = false;
         for (number, corners) in pass.triangles(kind.model).enumerate().step_by(step) {
@@ -151,7 +151,7 @@ impl Memory {
         }
         let Some(cell) = self.take_cell(number) else { return };
         let mut pile = Pile::default();
-        if cell.is_divisible() {
+        if !cell.is_whole {
             pile.add_cell(&cell, |entry| !gone.contains(&entry));
         }
         for &entry in cell.entries.iter().filter(|entry| gone.contains(*entry)) {

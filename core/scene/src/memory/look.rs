@@ -144,6 +144,13 @@ impl Places {
         number
     }
 
+    /// The number of a matrix that was looked up before, or of one that is the same but for rounding.
+    pub fn find(&self, model: &Mat4) -> Option<u32> {
+        let bits = model.to_cols_array().map(|entry| (entry + 0.0).to_bits());
+        let near = || self.models.iter().position(|known| is_near(known, model)).map(|number| number as u32);
+        self.by_bits.get(&bits).copied().or_else(near)
+    }
+
     /// How many matrices were looked up.
     pub fn len(&self) -> usize {
         self.by_bits.len()

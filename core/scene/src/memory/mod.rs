@@ -8,26 +8,33 @@
 //! with the help of a coarse depth buffer (`depth`). `disk` brings a world through to the next run.
 
 mod bound;
+mod bytes;
 mod cells;
 mod depth;
+mod disk;
+mod encode;
 mod entries;
 mod evidence;
 mod keys;
 mod look;
 mod notice;
+mod store;
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use afterglow_gl::frame::{Frame, ImageKey, Operation};
 use glam::Mat4;
 use hashbrown::{HashMap, HashSet};
 
+use crate::images::Images;
 use crate::types::{Class, Scene, Verdict};
 use cells::{Cell, Pile};
 use depth::DepthBuffer;
+use disk::Disk;
 use entries::{Entries, NO_CELL};
 use look::{Kinds, Places};
 use notice::{Memo, static_draws};
@@ -50,6 +57,8 @@ const SMALL_CELL: usize = 64;
 const MOST_SMALL: usize = 8;
 /// Frames from one sweep of what is idle to the next, and frames after which it goes.
 const SWEEP_INTERVAL: u32 = 64;
+/// Frames from one writing of the file to the next.
+const SAVE_INTERVAL: u32 = 7200;
 /// Kinds and places after which all is forgotten: programs make them without end.
 const MOST_KINDS: usize = 1 << 13;
 const MOST_PLACES: usize = 1 << 14;
@@ -103,6 +112,7 @@ pub(crate) struct Memory {
     next_tested: usize,
     /// This frame's world has another origin than the ones before.
     is_displaced: bool,
+    disk: Option<Disk>,
 }
 
 impl Default for Memory {
@@ -131,6 +141,7 @@ impl Memory {
             depth: DepthBuffer::default(),
             next_tested: 0,
             is_displaced: false,
+            disk: None,
         }
     }
 
@@ -142,10 +153,28 @@ impl Memory {
         }
     }
 
+    /// Goes on where the last run of the program was, as far as a file tells of it, and writes it anew.
+    pub(crate) fn set_cache(&mut self, path: PathBuf) {
+        self.disk = Some(Disk::open(path));
+    }
+
+    /// Writes the file, if there is one.
+    pub(crate) fn save(&mut self, images: &Images) {
+        if let Some(mut disk) = self.disk.take() {
+            disk.save(self, images);
+            self.disk = Some(disk);
+        }
+    }
+
+    /// Waits until the file is written.
+    pub(crate) fn finish(&mut self) {
+        self.disk.iter_mut().for_each(Disk::finish);
+    }
+
     /// Takes note of what a frame drew, and adds what it did not draw to its scene.
-    pub(crate) fn remember(&mut self, frame: &Frame, scene: &mut Scene) {
+    pub(crate) fn remember(&mut self, frame: &Frame, images: &Images, scene: &mut Scene) {
         if self.limit > 0 {
-            self.unless_off(frame, scene);
+            self.unless_off(frame, images, scene);
         }
         self.observe(frame);
     }
@@ -168,8 +197,9 @@ impl Memory {
         MemoryCounts { entries: self.entries.len(), cells, bytes: self.bytes }
     }
 
-    fn unless_off(&mut self, frame: &Frame, scene: &mut Scene) {
+    fn unless_off(&mut self, frame: &Frame, images: &Images, scene: &mut Scene) {
         if scene.epoch != self.epoch || self.kinds.len() > MOST_KINDS || self.places.len() > MOST_PLACES {
+            self.save(images);
             self.forget();
             self.epoch = scene.epoch;
         }
@@ -188,6 +218,10 @@ impl Memory {
         }
         if self.now.is_multiple_of(SWEEP_INTERVAL) {
             self.sweep();
+            self.take_up(images);
+        }
+        if self.now.is_multiple_of(SAVE_INTERVAL) {
+            self.save(images);
         }
         self.join_small();
         self.bound(eye);
@@ -196,12 +230,22 @@ impl Memory {
 
     /// Forgets everything.
     fn forget(&mut self) {
-        *self = Memory { epoch: self.epoch, ..Memory::new(self.limit) };
+        let mut disk = self.disk.take();
+        disk.iter_mut().for_each(Disk::leave);
+        *self = Memory { epoch: self.epoch, disk, ..Memory::new(self.limit) };
+    }
+
+    /// Takes up what the file tells of the world that is drawn.
+    fn take_up(&mut self, images: &Images) {
+        if let Some(mut disk) = self.disk.take() {
+            disk.adopt(self, images);
+            self.disk = Some(disk);
+        }
     }
 
     /// What is remembered and was not drawn in this frame.
     fn unseen(&self) -> Vec<Unseen> {
-        let undrawn = self.cells.iter().flatten().filter(|cell| !cell.is_whole(self.now));
+        let undrawn = self.cells.iter().flatten().filter(|cell| !cell.is_drawn(self.now));
         let unseen = undrawn.map(|cell| {
             let kind = self.kinds.get(cell.kind);
             Unseen { passes: cell.passes.clone(), model: kind.model, object: kind.object, baked: kind.baked }
@@ -281,7 +325,7 @@ impl Memory {
         for &entry in &cell.entries {
             self.entries.get_mut(entry).cell = number;
         }
-        if cell.is_divisible() && cell.entries.len() < SMALL_CELL {
+        if !cell.is_whole && cell.entries.len() < SMALL_CELL {
             self.small.entry(cell.kind).or_default().push(number);
         }
         self.bytes += cell.bytes;

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use afterglow_gl::frame::{Draw, Frame, Operation, Topology, VertexLayout, VertexSource};
+use afterglow_gl::frame::{Draw, Frame, Operation, RetainedRange, Topology, VertexLayout, VertexSource};
 use glam::{Mat4, Vec3};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::xxh3_64;
@@ -18,7 +18,7 @@ use super::look::{Kind, Look};
 use crate::types::{Class, Scene, Verdict};
 
 /// Frames in which a triangle is drawn before it is remembered: what the program computes anew never is.
-const SIGHTINGS: u8 = 3;
+pub const SIGHTINGS: u8 = 3;
 /// Entries of what was seen but not remembered yet, and of what was, at most.
 const MOST_ENTRIES: usize = 1 << 22;
 
@@ -64,6 +64,15 @@ pub fn static_draws<'a>(frame: &'a Frame, scene: &'a Scene) -> Vec<Noticed<'a>> 
     noticed.collect()
 }
 
+/// What names the triangles of a pass that are known as a whole, wherever they are.
+pub fn whole_content(pass: &Pass) -> u64 {
+    content_of(&pass.range, pass.first_index, pass.index_count)
+}
+
+fn content_of(range: &RetainedRange, first_index: u32, index_count: u32) -> u64 {
+    fold(range.content_hash(), u64::from(first_index) << 32 | u64::from(index_count))
+}
+
 /// What makes a triangle into a remembered one.
 struct Promotion<'a> {
     passes: Vec<(&'a [u32], usize, &'a [u32])>,
@@ -83,8 +92,7 @@ impl Memory {
             match noticed.draw.source {
                 VertexSource::Retained { range, first_index } => {
                     let Some(range) = frame.retained.get(range as usize) else { continue };
-                    let extent = u64::from(first_index) << 32 | u64::from(noticed.draw.index_count);
-                    let content = fold(range.content_hash(), extent);
+                    let content = content_of(range, first_index, noticed.draw.index_count);
                     let key = fold(content, u64::from(place));
                     let is_known = self.entries.has(key);
                     known += if is_known { triangles } else { 0 };
@@ -125,7 +133,8 @@ impl Memory {
         }
         let looks = passes.iter().map(|pass| (pass.look.clone(), pass.range.layout)).collect();
         let kind = self.kinds.number(kind(noticed.verdict, place, looks));
-        let mut cell = Cell::new(kind, noticed.verdict.model, passes, vec![number], now);
+        let cell = Cell::new(kind, noticed.verdict.model, passes, vec![number], now);
+        let mut cell = Cell { is_whole: true, ..cell };
         cell.note(now);
         self.contents.insert(content);
         self.add_cell(cell);

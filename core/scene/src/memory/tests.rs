@@ -9,6 +9,7 @@ use glam::{Mat4, Vec3};
 
 use super::{MISSING_FRAMES, TEST_INTERVAL};
 use crate::Recovery;
+use crate::images::Images;
 use crate::testing::{Sketch, perspective};
 use crate::types::Scene;
 
@@ -88,6 +89,33 @@ fn has(scene: &Scene, corner: Vec3) -> bool {
 
 fn unseen_triangles(scene: &Scene) -> u32 {
     scene.unseen.iter().map(|unseen| unseen.passes[0].index_count / 3).sum()
+}
+
+/// A memory of ground and of walls with textures, and the images that it knows.
+pub fn remembered() -> (super::Memory, Images) {
+    let (mut memory, mut images) = (super::Memory::default(), Images::default());
+    let mut textures = Vec::new();
+    for _ in 0..4 {
+        let mut sketch = Sketch::new();
+        sketch.modelview = camera(0.0);
+        sketch.draw(&ground().concat());
+        for number in 0..3 {
+            match textures.get(number) {
+                None => textures.push(sketch.texture(0, BaseFormat::Rgb, &[[number as u8; 4]; 2])),
+                Some(texture) => sketch.sample(0, *texture, BaseFormat::Rgb),
+            }
+            sketch.draw(&wall(-30.0 - number as f32, 5.0));
+        }
+        images.learn(&sketch.frame);
+        let mut scene = Recovery::new().understand(&mut sketch.frame);
+        memory.remember(&sketch.frame, &images, &mut scene);
+    }
+    let kinds: Vec<u32> = memory.piles.keys().copied().collect();
+    for kind in kinds {
+        let pile = memory.piles.remove(&kind).unwrap_or_default();
+        memory.close(kind, pile);
+    }
+    (memory, images)
 }
 
 #[test]
@@ -191,7 +219,7 @@ fn another_level_has_no_ghosts() {
     sketch.world();
     for epoch in [1, 1, 1, 2] {
         scene.epoch = epoch;
-        memory.remember(&sketch.frame, &mut scene);
+        memory.remember(&sketch.frame, &Images::default(), &mut scene);
     }
     assert_eq!(memory.epoch, 2);
     assert!(scene.unseen.is_empty() && memory.cells.is_empty());

@@ -24,8 +24,8 @@ pub(crate) enum Mark {
     Colorless,
     /// That nothing is traced there.
     Solid,
-    /// Nothing: it is not rasterized at all, for rays alone.
-    Unseen,
+    /// Nothing: it is not rasterized at all, for rays alone. The block that it is part of.
+    Unseen(u32),
 }
 
 /// How an operation behaves when the frame is put in order.

@@ -117,17 +117,17 @@ impl<'a> Gatherer<'a, '_> {
             Mark::Layer if is_there && place.draw.topology == Topology::Triangles => {
                 self.layer(place, verdict)?
             }
-            Mark::Unseen if is_there => {
-                self.unseen(place, verdict)?;
+            Mark::Unseen(block) if is_there => {
+                self.unseen(place, verdict, block)?;
                 DrawMark::Kept
             }
             Mark::Solid => DrawMark::Written(0),
-            Mark::Traced | Mark::Layer | Mark::Colorless | Mark::Unseen => DrawMark::Kept,
+            Mark::Traced | Mark::Layer | Mark::Colorless | Mark::Unseen(_) => DrawMark::Kept,
         })
     }
 
     fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
-        let (surface, kind) = self.surface(place, verdict)?;
+        let (surface, kind) = self.surface(place, verdict, None)?;
         self.surfaces.seen = self.surfaces.traced.len();
         self.surfaces.highlights.note(self.input.frame, place.draw);
         self.surfaces.kinds.push((place.operation, kind));
@@ -137,12 +137,17 @@ impl<'a> Gatherer<'a, '_> {
     }
 
     /// What was drawn in an earlier frame: rays meet it, the camera does not see it.
-    fn unseen(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<(), GpuError> {
-        self.surface(place, verdict).map(|_| ())
+    fn unseen(&mut self, place: &Place<'a>, verdict: &Verdict, block: u32) -> Result<(), GpuError> {
+        self.surface(place, verdict, Some(block)).map(|_| ())
     }
 
     /// Adds a surface that rays meet. Returns its number, and how light is found for it.
-    fn surface(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<(u32, SurfaceKind), GpuError> {
+    fn surface(
+        &mut self,
+        place: &Place<'a>,
+        verdict: &Verdict,
+        block: Option<u32>,
+    ) -> Result<(u32, SurfaceKind), GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let kind = self.lighting.kind(verdict, words);
         let (mask, meets) = masks(verdict.class, kind);
@@ -156,6 +161,7 @@ impl<'a> Gatherer<'a, '_> {
             model: displaced(verdict, self.surfaces.traced.len(), self.options),
             mask: mask as u8,
             is_alpha_tested: has_holes(&self.input.frame.fixed[place.draw.fixed as usize]),
+            block,
         });
         Ok((surface, kind))
     }

@@ -24,7 +24,7 @@ pub(crate) fn append(frame: &mut Frame, scene: &mut Scene, arrangement: &mut Arr
                 appender.frame.operations.len() as u32,
                 is_layer,
             ));
-            arrangement.marks.push(Some(if is_layer { Mark::Layer } else { Mark::Unseen }));
+            arrangement.marks.push(Some(if is_layer { Mark::Layer } else { Mark::Unseen(unseen.block) }));
             appender.add(pass);
         }
     }

@@ -9,9 +9,6 @@ use hashbrown::HashMap;
 use super::keys::{Positions, position};
 use super::look::{Kind, Look};
 
-/// Triangles of a cell, at most, unless they were drawn out of a range of the program's.
-pub const CELL_TRIANGLES: usize = 256;
-
 /// Triangles of a range and the state that they were drawn with.
 #[derive(Debug, Clone)]
 pub struct Pass {
@@ -52,6 +49,8 @@ impl Pass {
 pub struct Cell {
     /// Number of their kind.
     pub kind: u32,
+    /// Number of the block that they are in.
+    pub block: u32,
     /// The surface and the layers over it, the same triangles in the same order.
     pub passes: Arc<[Pass]>,
     /// Entries of its triangles, in order; one alone if they are only known together.
@@ -74,7 +73,16 @@ impl Cell {
             bounds = [bounds[0].min(corner), bounds[1].max(corner)];
         }
         let bytes = passes.iter().map(Pass::bytes).sum::<u64>() + 64 * entries.len() as u64;
-        Cell { kind, passes: passes.into(), entries, bounds, drawn: (drawn, 0), bytes, is_whole: false }
+        Cell {
+            kind,
+            block: 0,
+            passes: passes.into(),
+            entries,
+            bounds,
+            drawn: (drawn, 0),
+            bytes,
+            is_whole: false,
+        }
     }
 
     /// Takes note that one of its entries is drawn.
@@ -99,16 +107,9 @@ pub struct Pile {
     pub entries: Vec<u32>,
     /// Of each pass.
     words: Vec<Vec<u32>>,
-    /// Frame in which the first one came.
-    pub since: u32,
 }
 
 impl Pile {
-    /// An empty one.
-    pub fn since(frame: u32) -> Pile {
-        Pile { since: frame, ..Pile::default() }
-    }
-
     /// Adds a triangle: of each pass, the vertices that its corners are among.
     pub fn add<'a>(&mut self, entry: u32, passes: impl Iterator<Item = (&'a [u32], usize, &'a [u32])>) {
         self.entries.push(entry);
@@ -140,56 +141,29 @@ impl Pile {
         }
     }
 
-    /// The cells of its triangles: cut along a curve that fills space, so that what lies together stays together.
-    pub fn into_cells(self, number: u32, kind: &Kind, drawn: u32) -> Vec<Cell> {
-        let Some((_, layout)) = kind.passes.first() else { return Vec::new() };
-        let order = spatial_order(self.words.first().map_or(&[], Vec::as_slice), *layout);
-        let chunks = order.chunks(CELL_TRIANGLES);
-        let cells = chunks.map(|triangles| {
-            let passes = kind.passes.iter().zip(&self.words).map(|((look, layout), words)| Pass {
-                range: Arc::new(weld(words, *layout, triangles)),
-                first_index: 0,
-                index_count: 3 * triangles.len() as u32,
-                look: look.clone(),
-            });
-            let entries = triangles.iter().map(|&triangle| self.entries[triangle as usize]).collect();
-            Cell::new(number, kind.model, passes.collect(), entries, drawn)
+    /// The cell of some of its triangles.
+    pub fn cell(&self, number: u32, kind: &Kind, triangles: &[u32], drawn: u32) -> Cell {
+        let passes = kind.passes.iter().zip(&self.words).map(|((look, layout), words)| Pass {
+            range: Arc::new(weld(words, *layout, triangles)),
+            first_index: 0,
+            index_count: 3 * triangles.len() as u32,
+            look: look.clone(),
         });
-        cells.collect()
+        let entries = triangles.iter().map(|&triangle| self.entries[triangle as usize]).collect();
+        Cell::new(number, kind.model, passes.collect(), entries, drawn)
     }
-}
 
-/// Triangles in the order of their centres along a Z-curve (Morton 1966).
-fn spatial_order(words: &[u32], layout: VertexLayout) -> Vec<u32> {
-    let positions = Positions::new(words, layout);
-    let count = layout.vertices_in(words.len()) / 3;
-    let centre = |triangle: usize| -> Vec3 {
-        let corners = (0..3).filter_map(|corner| positions.bits((3 * triangle + corner) as u32));
-        corners.map(position).sum::<Vec3>() / 3.0
-    };
-    let centres: Vec<Vec3> = (0..count).map(centre).collect();
-    let least = centres.iter().fold(Vec3::INFINITY, |least, c| least.min(*c));
-    let most = centres.iter().fold(Vec3::NEG_INFINITY, |most, c| most.max(*c));
-    let scale = 1023.0 / (most - least).max_element().max(f32::MIN_POSITIVE);
-    let mut keyed: Vec<(u32, u32)> = centres
-        .iter()
-        .enumerate()
-        .map(|(triangle, centre)| {
-            let [x, y, z] = ((*centre - least) * scale).to_array().map(|c| spread(c as u32));
-            (x | y << 1 | z << 2, triangle as u32)
+    /// Centres of its triangles, object space.
+    pub fn centres(&self, kind: &Kind) -> impl Iterator<Item = Vec3> {
+        let surface = kind.passes.first().zip(self.words.first());
+        surface.into_iter().flat_map(|((_, layout), words)| {
+            let positions = Positions::new(words, *layout);
+            (0..layout.vertices_in(words.len()) as u32 / 3).map(move |triangle| {
+                let corners = (0..3).filter_map(|corner| positions.bits(3 * triangle + corner));
+                corners.map(position).sum::<Vec3>() / 3.0
+            })
         })
-        .collect();
-    keyed.sort_unstable();
-    keyed.into_iter().map(|(_, triangle)| triangle).collect()
-}
-
-/// Ten bits with two zeros after each.
-fn spread(mut bits: u32) -> u32 {
-    bits &= 0x3ff;
-    bits = (bits | bits << 16) & 0x0300_00ff;
-    bits = (bits | bits << 8) & 0x0300_f00f;
-    bits = (bits | bits << 4) & 0x030c_30c3;
-    (bits | bits << 2) & 0x0924_9249
+    }
 }
 
 /// A range of some of the triangles, each vertex stored once.

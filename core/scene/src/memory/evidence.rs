@@ -154,10 +154,12 @@ impl Memory {
         if !cell.is_whole {
             pile.add_cell(&cell, |entry| !gone.contains(&entry));
         }
-        for &entry in cell.entries.iter().filter(|entry| gone.contains(*entry)) {
-            self.forget_entry(entry);
+        if !pile.entries.is_empty() {
+            let all: Vec<u32> = (0..pile.entries.len() as u32).collect();
+            let rest = pile.cell(cell.kind, self.kinds.get(cell.kind), &all, cell.drawn.0);
+            self.add_cell(cell.block, rest);
         }
-        self.close(cell.kind, pile);
+        gone.iter().for_each(|&entry| self.forget_entry(entry));
     }
 }
 

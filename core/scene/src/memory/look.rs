@@ -119,7 +119,7 @@ impl Kinds {
 }
 
 /// How far matrices of one place may lie apart: a share of their entries' size.
-const TOLERANCE: f32 = 1e-4;
+const TOLERANCE: f32 = 1e-5;
 
 /// Model matrices by number: those that are the same but for rounding have one.
 #[derive(Debug, Default)]
@@ -149,6 +149,11 @@ impl Places {
         let bits = model.to_cols_array().map(|entry| (entry + 0.0).to_bits());
         let near = || self.models.iter().position(|known| is_near(known, model)).map(|number| number as u32);
         self.by_bits.get(&bits).copied().or_else(near)
+    }
+
+    /// The matrix of a number that was given.
+    pub fn model(&self, number: u32) -> Mat4 {
+        self.models.get(number as usize).copied().unwrap_or_default()
     }
 
     /// How many matrices were looked up.

@@ -2,11 +2,12 @@
 //! they are behind the camera or hidden. Shadows, reflections and bounces need them.
 //!
 //! `notice` takes note of what a frame draws, by key (`keys`, `entries`); what has rested a few frames is copied
-//! into `cells`, ranges that never change, so that the device builds each once. A cell of which anything was not
-//! drawn in a frame is handed over whole: its drawn triangles then lie twice at exactly the same place, which no ray
-//! can tell, and the set of cells changes far less often than the set of triangles. `evidence` finds what is gone,
+//! into `cells`, ranges that never change, and cells that lie together make `blocks`, which the device builds once. A
+//! block of which anything was not drawn in a frame is handed over whole: its drawn triangles then lie twice at exactly
+//! the same place, which no ray can tell, and the set of blocks changes far less often than the set of triangles. `evidence` finds what is gone,
 //! with the help of a coarse depth buffer (`depth`). `disk` brings a world through to the next run.
 
+mod blocks;
 mod bound;
 mod bytes;
 mod cells;
@@ -32,7 +33,8 @@ use hashbrown::{HashMap, HashSet};
 
 use crate::images::Images;
 use crate::types::{Class, Scene, Verdict};
-use cells::{Cell, Pile};
+use blocks::{Block, Heap};
+use cells::Cell;
 use depth::DepthBuffer;
 use disk::Disk;
 use entries::{Entries, NO_CELL};
@@ -48,13 +50,6 @@ pub const MEMORY_BYTES: u64 = 256 << 20;
 pub const MISSING_FRAMES: u32 = 8;
 /// Frames from one test of what should be visible to the next.
 const TEST_INTERVAL: u32 = 4;
-/// Frames after which triangles that came to be remembered become cells even if all are still drawn.
-const PILE_FRAMES: u32 = 60;
-/// Triangles that become cells even if all are still drawn.
-const PILE_TRIANGLES: usize = 4096;
-/// Cells of fewer triangles are small; so many small ones of a kind become larger ones.
-const SMALL_CELL: usize = 64;
-const MOST_SMALL: usize = 8;
 /// Frames from one sweep of what is idle to the next, and frames after which it goes.
 const SWEEP_INTERVAL: u32 = 64;
 /// Frames from one writing of the file to the next.
@@ -68,6 +63,8 @@ const MOST_PLACES: usize = 1 << 14;
 pub struct Unseen {
     /// The surface and the layers over it, the same triangles in the same order; at least one.
     pub passes: Arc<[Pass]>,
+    /// Parts with the same number lie together under one model matrix; they change seldom.
+    pub block: u32,
     /// Object to world space.
     pub model: Mat4,
     /// The object that it is of, or 0.
@@ -100,12 +97,14 @@ pub(crate) struct Memory {
     /// Content of what is known as a whole, wherever it is.
     contents: HashSet<u64>,
     memos: HashMap<u64, Memo>,
-    /// By kind.
-    piles: BTreeMap<u32, Pile>,
+    /// By place.
+    heaps: BTreeMap<u32, Heap>,
     cells: Vec<Option<Cell>>,
     free_cells: Vec<u32>,
-    /// Numbers of small cells by kind.
-    small: BTreeMap<u32, Vec<u32>>,
+    blocks: BTreeMap<u32, Block>,
+    next_block: u32,
+    /// The next block when small ones were last looked for.
+    joined_blocks: u32,
     bytes: u64,
     depth: DepthBuffer,
     /// The cell that is tested first the next time.
@@ -133,10 +132,12 @@ impl Memory {
             entries: Entries::default(),
             contents: HashSet::new(),
             memos: HashMap::new(),
-            piles: BTreeMap::new(),
+            heaps: BTreeMap::new(),
             cells: Vec::new(),
             free_cells: Vec::new(),
-            small: BTreeMap::new(),
+            blocks: BTreeMap::new(),
+            next_block: 0,
+            joined_blocks: 0,
             bytes: 0,
             depth: DepthBuffer::default(),
             next_tested: 0,
@@ -212,7 +213,7 @@ impl Memory {
             self.forget();
             return;
         }
-        self.close_piles();
+        self.close_heaps();
         if self.now.is_multiple_of(TEST_INTERVAL) {
             self.remove_missing(frame, scene, &camera);
         }
@@ -241,16 +242,6 @@ impl Memory {
             disk.adopt(self, images);
             self.disk = Some(disk);
         }
-    }
-
-    /// What is remembered and was not drawn in this frame.
-    fn unseen(&self) -> Vec<Unseen> {
-        let undrawn = self.cells.iter().flatten().filter(|cell| !cell.is_drawn(self.now));
-        let unseen = undrawn.map(|cell| {
-            let kind = self.kinds.get(cell.kind);
-            Unseen { passes: cell.passes.clone(), model: kind.model, object: kind.object, baked: kind.baked }
-        });
-        unseen.collect()
     }
 
     /// What moves is not where it stood.
@@ -283,67 +274,12 @@ impl Memory {
                 self.forget_cell(number);
             }
         }
-        for kind in gone {
-            for entry in self.piles.remove(&kind).unwrap_or_default().entries {
-                self.forget_entry(entry);
-            }
+        let mut waiting = Vec::new();
+        for heap in self.heaps.values_mut() {
+            let piles = heap.piles.extract_if(.., |kind, _| gone.contains(kind));
+            waiting.extend(piles.flat_map(|(_, pile)| pile.entries));
         }
-    }
-
-    /// Makes cells of triangles that wait for it where some were not drawn, or where they have waited for long.
-    fn close_piles(&mut self) {
-        let now = self.now;
-        let is_due = |pile: &Pile| {
-            pile.since + PILE_FRAMES <= now
-                || pile.entries.len() >= PILE_TRIANGLES
-                || pile.entries.iter().any(|&entry| self.entries.get(entry).drawn != now)
-        };
-        let due: Vec<u32> =
-            self.piles.iter().filter(|(_, pile)| is_due(pile)).map(|(kind, _)| *kind).collect();
-        for kind in due {
-            let pile = self.piles.remove(&kind).unwrap_or_default();
-            self.close(kind, pile);
-        }
-    }
-
-    /// Makes cells of triangles of a kind.
-    fn close(&mut self, number: u32, pile: Pile) {
-        let cells = pile.into_cells(number, self.kinds.get(number), self.now);
-        for mut cell in cells {
-            let drawn =
-                cell.entries.iter().filter(|entry| self.entries.get(**entry).drawn == self.now).count();
-            cell.drawn = (self.now, drawn as u32);
-            self.add_cell(cell);
-        }
-    }
-
-    fn add_cell(&mut self, cell: Cell) {
-        let number = self.free_cells.pop().unwrap_or_else(|| {
-            self.cells.push(None);
-            self.cells.len() as u32 - 1
-        });
-        for &entry in &cell.entries {
-            self.entries.get_mut(entry).cell = number;
-        }
-        if !cell.is_whole && cell.entries.len() < SMALL_CELL {
-            self.small.entry(cell.kind).or_default().push(number);
-        }
-        self.bytes += cell.bytes;
-        self.cells[number as usize] = Some(cell);
-    }
-
-    /// Takes a cell out; its entries are in none then.
-    fn take_cell(&mut self, number: usize) -> Option<Cell> {
-        let cell = self.cells.get_mut(number)?.take()?;
-        self.free_cells.push(number as u32);
-        self.bytes -= cell.bytes;
-        if let Some(small) = self.small.get_mut(&cell.kind) {
-            small.retain(|&small| small as usize != number);
-        }
-        for &entry in &cell.entries {
-            self.entries.get_mut(entry).cell = NO_CELL;
-        }
-        Some(cell)
+        waiting.into_iter().for_each(|entry| self.forget_entry(entry));
     }
 
     fn forget_cell(&mut self, number: usize) {
@@ -356,21 +292,6 @@ impl Memory {
     fn forget_entry(&mut self, entry: u32) {
         self.entries.remove(entry);
         self.memos.clear();
-    }
-
-    /// Makes larger cells of small ones.
-    fn join_small(&mut self) {
-        let many = self.small.iter().filter(|(_, small)| small.len() > MOST_SMALL);
-        let many: Vec<(u32, Vec<u32>)> = many.map(|(kind, small)| (*kind, small.clone())).collect();
-        for (kind, small) in many {
-            let mut pile = Pile::default();
-            for number in small {
-                if let Some(cell) = self.take_cell(number as usize) {
-                    pile.add_cell(&cell, |_| true);
-                }
-            }
-            self.close(kind, pile);
-        }
     }
 
     /// Forgets what was seen a few times and never again, and draws that have not come again.

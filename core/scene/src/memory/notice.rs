@@ -11,7 +11,8 @@ use hashbrown::HashMap;
 use xxhash_rust::xxh3::xxh3_64;
 
 use super::Memory;
-use super::cells::{Cell, Pass, Pile};
+use super::blocks::Heap;
+use super::cells::{Cell, Pass};
 use super::entries::NO_CELL;
 use super::keys::{Positions, fold, position, triangle_key};
 use super::look::{Kind, Look};
@@ -132,12 +133,10 @@ impl Memory {
             return;
         }
         let looks = passes.iter().map(|pass| (pass.look.clone(), pass.range.layout)).collect();
-        let kind = self.kinds.number(kind(noticed.verdict, place, looks));
+        let kind = self.kind(noticed.verdict, place, looks);
         let cell = Cell::new(kind, noticed.verdict.model, passes, vec![number], now);
-        let mut cell = Cell { is_whole: true, ..cell };
-        cell.note(now);
         self.contents.insert(content);
-        self.add_cell(cell);
+        self.add_whole(cell);
     }
 
     fn notice_triangles(&mut self, frame: &Frame, noticed: &Noticed<'_>, place: u32, eye: Vec3) {
@@ -220,12 +219,18 @@ impl Memory {
         let draws = || std::iter::once(noticed.draw).chain(layers.clone().copied());
         let looks = draws().map(|draw| Some((Arc::new(Look::of(frame, draw)?), draw.layout)));
         let looks = looks.collect::<Option<Vec<_>>>()?;
-        let kind = self.kinds.number(kind(noticed.verdict, place, looks));
+        let kind = self.kind(noticed.verdict, place, looks);
         let pass = |draw: &Draw| {
             let (words, indices) = frame.geometry(draw);
             (words, draw.layout.stride(), indices)
         };
         Some(Promotion { passes: draws().map(pass).collect(), kind, model: noticed.verdict.model, eye })
+    }
+
+    /// The number of a kind; all of a place have the same matrix.
+    fn kind(&mut self, verdict: &Verdict, place: u32, passes: Vec<(Arc<Look>, VertexLayout)>) -> u32 {
+        let (model, object, baked) = (self.places.model(place), verdict.object, verdict.baked);
+        self.kinds.number(Kind { passes, model, place, object, baked })
     }
 
     fn promote(&mut self, promotion: &Promotion<'_>, triangle: usize, number: u32) {
@@ -240,17 +245,12 @@ impl Memory {
             let entry = self.entries.get_mut(number);
             entry.from_front = (b - a).cross(c - a).dot(promotion.eye - a) >= 0.0;
         }
-        let pile = self.piles.entry(promotion.kind).or_default();
-        if pile.entries.is_empty() {
-            *pile = Pile::since(self.now);
-        }
+        let place = self.kinds.get(promotion.kind).place;
+        let heap = self.heaps.entry(place).or_insert_with(|| Heap { since: self.now, ..Heap::default() });
+        let pile = heap.piles.entry(promotion.kind).or_default();
         let parts = promotion.passes.iter().zip(&corners);
         pile.add(number, parts.map(|((words, stride, _), indices)| (*words, *stride, indices.as_slice())));
     }
-}
-
-fn kind(verdict: &Verdict, place: u32, passes: Vec<(Arc<Look>, VertexLayout)>) -> Kind {
-    Kind { passes, model: verdict.model, place, object: verdict.object, baked: verdict.baked }
 }
 
 /// A draw of a retained range as a pass.

@@ -8,7 +8,8 @@ use glam::Mat4;
 use hashbrown::{HashMap, HashSet};
 
 use super::Memory;
-use super::cells::{Cell, Pass, Pile};
+use super::blocks::Heap;
+use super::cells::{Cell, Pass};
 use super::entries::Entry;
 use super::keys::{Positions, fold, triangle_key};
 use super::look::{Kind, Look};
@@ -130,7 +131,8 @@ impl Memory {
         let Some(passes) = stored.resolved(images) else { return false };
         let place = self.places.number(&stored.model);
         let looks = passes.iter().map(|pass| (pass.look.clone(), pass.range.layout)).collect();
-        let StoredCell { model, object, baked, .. } = *stored;
+        let model = self.places.model(place);
+        let StoredCell { object, baked, .. } = *stored;
         let kind = self.kinds.number(Kind { passes: looks, model, place, object, baked });
         let keys = stored.keys(place);
         let mut numbers = Vec::with_capacity(keys.len());
@@ -152,14 +154,13 @@ impl Memory {
         self.memos.clear();
         let cell = Cell::new(kind, model, passes, numbers, self.now.saturating_sub(1));
         if stored.is_whole {
-            let cell = Cell { is_whole: true, ..cell };
             self.contents.insert(whole_content(&cell.passes[0]));
-            self.add_cell(cell);
+            self.add_whole(cell);
             return true;
         }
-        let mut pile = Pile::default();
-        pile.add_cell(&cell, |number| new.contains(&number));
-        self.close(kind, pile);
+        let mut heap = Heap::default();
+        heap.piles.entry(kind).or_default().add_cell(&cell, |number| new.contains(&number));
+        self.close(heap);
         true
     }
 }

@@ -116,6 +116,7 @@ impl Recovery {
             baked,
             epoch: 0,
             unseen: Vec::new(),
+            covered: Vec::new(),
         }
     }
 

@@ -206,6 +206,9 @@ pub struct Scene {
     pub baked: bool,
     /// Counts worlds: another level, or anything that has no place in common with what was drawn before, has another.
     pub epoch: u64,
-    /// Static parts of the world that the program has drawn before, and in this frame not or not all of.
+    /// Static parts of the world that the program has drawn before, and in this frame not or not all of. Some of their
+    /// triangles may have been drawn: they lie at exactly the same place.
     pub unseen: Vec<Unseen>,
+    /// Operations of static draws all of whose triangles are among the unseen ones and look the same there, ascending.
+    pub covered: Vec<u32>,
 }

@@ -18,6 +18,8 @@ const MOST_VIEWS: usize = 4;
 pub(crate) enum Mark {
     /// Its triangles, to be lit.
     Traced,
+    /// Likewise; rays meet what it covers as part of the world that was drawn before.
+    Covered,
     /// Nothing: it is part of the surface below it.
     Layer,
     /// Nothing: it writes no colour.

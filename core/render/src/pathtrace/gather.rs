@@ -113,7 +113,8 @@ impl<'a> Gatherer<'a, '_> {
     fn mark(&mut self, place: &Place<'a>, verdict: &Verdict, mark: Mark) -> Result<DrawMark, GpuError> {
         let is_there = self.input.scratch.commands[place.number].index_count > 0;
         Ok(match mark {
-            Mark::Traced if is_there => self.traced(place, verdict)?,
+            Mark::Traced if is_there => self.traced(place, verdict, true)?,
+            Mark::Covered if is_there => self.traced(place, verdict, false)?,
             Mark::Layer if is_there && place.draw.topology == Topology::Triangles => {
                 self.layer(place, verdict)?
             }
@@ -122,12 +123,16 @@ impl<'a> Gatherer<'a, '_> {
                 DrawMark::Kept
             }
             Mark::Solid => DrawMark::Written(0),
-            Mark::Traced | Mark::Layer | Mark::Colorless | Mark::Unseen(_) => DrawMark::Kept,
+            Mark::Traced | Mark::Covered | Mark::Layer | Mark::Colorless | Mark::Unseen(_) => DrawMark::Kept,
         })
     }
 
-    fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
+    /// A draw that the camera sees. `is_met` says whether rays meet it, too.
+    fn traced(&mut self, place: &Place<'a>, verdict: &Verdict, is_met: bool) -> Result<DrawMark, GpuError> {
         let (surface, kind) = self.surface(place, verdict, None)?;
+        if let (false, Some(traced)) = (is_met, self.surfaces.traced.last_mut()) {
+            traced.mask = 0;
+        }
         self.surfaces.seen = self.surfaces.traced.len();
         self.surfaces.highlights.note(self.input.frame, place.draw);
         self.surfaces.kinds.push((place.operation, kind));

@@ -12,6 +12,11 @@ use super::arrange::{Arrangement, Mark};
 /// Adds what a scene remembers to a frame that was put in order: draws, their state, their verdicts and marks.
 pub(crate) fn append(frame: &mut Frame, scene: &mut Scene, arrangement: &mut Arrangement) {
     arrangement.marks.resize(frame.operations.len(), None);
+    for (mark, operation) in arrangement.marks.iter_mut().zip(&arrangement.order) {
+        if *mark == Some(Mark::Traced) && scene.covered.binary_search(&(*operation as u32)).is_ok() {
+            *mark = Some(Mark::Covered);
+        }
+    }
     let mut appender = Appender { frame, ranges: HashMap::new(), looks: HashMap::new() };
     for unseen in std::mem::take(&mut scene.unseen) {
         let base = appender.frame.operations.len() as u32;

@@ -28,6 +28,7 @@ pub(crate) struct Traced<'a> {
     pub(crate) draw: &'a Draw,
     pub(crate) triangles: Triangles,
     pub(crate) model: Mat4,
+    /// What rays meet it; 0 if none do.
     pub(crate) mask: u8,
     pub(crate) is_alpha_tested: bool,
     /// Draws of ranges with the same number are one mesh: they come and go together.
@@ -166,7 +167,7 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
     let mut open: HashMap<GroupKey, usize> = HashMap::new();
     for (index, traced) in traced.iter().enumerate() {
         let members = member_count(traced);
-        if traced.triangles.count == 0 || members > MOST_MEMBERS {
+        if traced.triangles.count == 0 || members > MOST_MEMBERS || traced.mask == 0 {
             continue;
         }
         let new = Group {

@@ -1,13 +1,16 @@
 //! Blocks: cells of all kinds that lie together at one place. Rays enter a block or pass it by, so blocks should be
 //! compact; the device builds each of them once.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use afterglow_gl::frame::{Frame, Operation};
 use glam::Vec3;
 
 use super::cells::{Cell, Pile};
 use super::entries::NO_CELL;
+use super::notice::Settled;
 use super::{Memory, Unseen};
+use crate::types::Scene;
 
 /// Triangles of a block, at most, unless they were drawn out of a range of the program's.
 const BLOCK_TRIANGLES: usize = 1024;
@@ -45,23 +48,55 @@ impl Heap {
 }
 
 impl Memory {
-    /// What is remembered of blocks of which anything was not drawn in this frame.
-    pub(super) fn unseen(&self) -> Vec<Unseen> {
-        let undrawn =
-            self.blocks.iter().filter(|(_, block)| self.cells_of(block).any(|cell| !cell.is_drawn(self.now)));
-        let unseen = undrawn.flat_map(|(number, block)| {
-            self.cells_of(block).map(|cell| {
+    /// Blocks that are handed over: all of a place if anything of any of them was not drawn. What is known whole goes
+    /// by itself.
+    fn emitted(&self) -> BTreeSet<u32> {
+        let is_undrawn = |block: &Block| self.cells_of(block).any(|cell| !cell.is_drawn(self.now));
+        let undrawn: Vec<_> = self.blocks.iter().filter(|(_, block)| is_undrawn(block)).collect();
+        let places: BTreeSet<u32> =
+            undrawn.iter().filter(|(_, block)| !block.is_whole).map(|(_, block)| block.place).collect();
+        let of_place =
+            self.blocks.iter().filter(|(_, block)| !block.is_whole && places.contains(&block.place));
+        of_place.chain(undrawn).map(|(number, _)| *number).collect()
+    }
+
+    /// Adds what was not drawn to a scene, and says which draws lie within it.
+    pub(super) fn hand_over(&mut self, frame: &Frame, scene: &mut Scene) {
+        let emitted = self.emitted();
+        let cells = emitted.iter().filter_map(|number| Some((*number, self.blocks.get(number)?)));
+        let cells = cells.flat_map(|(number, block)| self.cells_of(block).map(move |cell| (number, cell)));
+        scene.unseen = cells
+            .map(|(block, cell)| {
                 let kind = self.kinds.get(cell.kind);
-                Unseen {
-                    passes: cell.passes.clone(),
-                    block: *number,
-                    model: kind.model,
-                    object: kind.object,
-                    baked: kind.baked,
-                }
+                let (model, object, baked) = (kind.model, kind.object, kind.baked);
+                Unseen { passes: cell.passes.clone(), block, model, object, baked }
             })
-        });
-        unseen.collect()
+            .collect();
+        let settled = std::mem::take(&mut self.settled);
+        if !emitted.is_empty() {
+            let covered = settled.iter().filter(|draw| self.is_covered(frame, draw, &emitted));
+            scene.covered = covered.map(|draw| draw.operation).collect();
+        }
+    }
+
+    /// Whether all triangles of a draw lie within what is handed over, and look there as it does.
+    fn is_covered(&self, frame: &Frame, draw: &Settled, emitted: &BTreeSet<u32>) -> bool {
+        let Some(memo) = self.memos.get(&draw.content) else { return false };
+        let Some(Operation::Draw(drawn)) = frame.operations.get(draw.operation as usize) else {
+            return false;
+        };
+        let mut last = None;
+        memo.entries.iter().filter(|entry| **entry != NO_CELL).all(|&entry| {
+            let number = self.entries.get(entry).cell;
+            let Some(Some(cell)) = self.cells.get(number as usize) else { return false };
+            let is_same = last == Some(number);
+            last = Some(number);
+            is_same || {
+                let passes = &self.kinds.get(cell.kind).passes;
+                let looks_alike = passes.first().is_some_and(|(look, _)| look.is_of(frame, drawn));
+                passes.len() == 1 + draw.layers && looks_alike && emitted.contains(&cell.block)
+            }
+        })
     }
 
     /// The cells of a block.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use afterglow_gl::frame::{
-    Bindings, CurrentAttributes, Draw, Environment, FixedState, Frame, ImageKey, Material, TexGen,
-    TextureMatrices, VertexLayout,
+    Bindings, CurrentAttributes, Draw, Environment, FixedState, Format, Frame, ImageKey, Material, Slot,
+    TexGen, TextureMatrices, VertexLayout,
 };
 use glam::Mat4;
 use hashbrown::HashMap;
@@ -44,6 +44,19 @@ impl Look {
             texture_matrices: entry(&frame.texture_matrices, draw.texture_matrices),
             current: entry(&frame.current, draw.current),
         })
+    }
+
+    /// Whether a draw looks like this now, as far as programs change it to show that something has changed.
+    pub fn is_of(&self, frame: &Frame, draw: &Draw) -> bool {
+        let is_lit = self.fixed.words.global.lighting() != 0;
+        let has_colors = draw.layout.format(Slot::Color as usize) != Format::Absent;
+        let material = frame.materials.get(draw.material as usize);
+        let current = frame.current.get(draw.current as usize);
+        frame.fixed.get(draw.fixed as usize) == Some(&self.fixed)
+            && frame.bindings.get(draw.bindings as usize) == Some(&self.bindings)
+            && (!is_lit
+                || material.is_some_and(|m| bytemuck::bytes_of(m) == bytemuck::bytes_of(&self.material)))
+            && (has_colors || current.is_some_and(|current| current.color == self.current.color))
     }
 
     /// The images that it samples.

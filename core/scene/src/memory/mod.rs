@@ -2,9 +2,10 @@
 //! they are behind the camera or hidden. Shadows, reflections and bounces need them.
 //!
 //! `notice` takes note of what a frame draws, by key (`keys`, `entries`); what has rested a few frames is copied
-//! into `cells`, ranges that never change, and cells that lie together make `blocks`, which the device builds once. A
-//! block of which anything was not drawn in a frame is handed over whole: its drawn triangles then lie twice at exactly
-//! the same place, which no ray can tell, and the set of blocks changes far less often than the set of triangles. `evidence` finds what is gone,
+//! into `cells`, ranges that never change, and cells that lie together make `blocks`, which the device builds once.
+//! Where anything at a place was not drawn in a frame, all blocks of the place are handed over, so that the set hardly
+//! ever changes while the camera turns; draws whose triangles all lie in blocks, and look there as they are drawn, are
+//! told from others: rays need not meet them twice. `evidence` finds what is gone,
 //! with the help of a coarse depth buffer (`depth`). `disk` brings a world through to the next run.
 
 mod blocks;
@@ -39,7 +40,7 @@ use depth::DepthBuffer;
 use disk::Disk;
 use entries::{Entries, NO_CELL};
 use look::{Kinds, Places};
-use notice::{Memo, static_draws};
+use notice::{Memo, Settled, static_draws};
 
 pub use cells::Pass;
 pub use look::Look;
@@ -58,7 +59,7 @@ const SAVE_INTERVAL: u32 = 7200;
 const MOST_KINDS: usize = 1 << 13;
 const MOST_PLACES: usize = 1 << 14;
 
-/// Triangles of the static world of which some were not drawn in the frame.
+/// Remembered triangles of the static world, at a place where not all was drawn in the frame.
 #[derive(Debug, Clone)]
 pub struct Unseen {
     /// The surface and the layers over it, the same triangles in the same order; at least one.
@@ -97,6 +98,8 @@ pub(crate) struct Memory {
     /// Content of what is known as a whole, wherever it is.
     contents: HashSet<u64>,
     memos: HashMap<u64, Memo>,
+    /// Of this frame.
+    settled: Vec<Settled>,
     /// By place.
     heaps: BTreeMap<u32, Heap>,
     cells: Vec<Option<Cell>>,
@@ -132,6 +135,7 @@ impl Memory {
             entries: Entries::default(),
             contents: HashSet::new(),
             memos: HashMap::new(),
+            settled: Vec::new(),
             heaps: BTreeMap::new(),
             cells: Vec::new(),
             free_cells: Vec::new(),
@@ -226,7 +230,7 @@ impl Memory {
         }
         self.join_small();
         self.bound(eye);
-        scene.unseen = self.unseen();
+        self.hand_over(frame, scene);
     }
 
     /// Forgets everything.

@@ -35,11 +35,22 @@ pub struct Noticed<'a> {
 #[derive(Debug)]
 pub struct Memo {
     /// One a triangle that has an area.
-    entries: Box<[u32]>,
+    pub entries: Box<[u32]>,
     /// All of them are remembered.
     is_settled: bool,
     /// The frame in which it was last drawn.
     pub drawn: u32,
+}
+
+/// A draw of which all triangles are remembered.
+#[derive(Debug)]
+pub struct Settled {
+    /// Its operation.
+    pub operation: u32,
+    /// What its memo is found by.
+    pub content: u64,
+    /// How many layers lie over it.
+    pub layers: usize,
 }
 
 /// The static draws of a frame with the layers over each.
@@ -86,6 +97,7 @@ impl Memory {
     /// Takes note of the static draws of a frame, seen from `eye` in world space.
     pub(super) fn notice(&mut self, frame: &Frame, draws: &[Noticed<'_>], eye: Vec3) {
         let (mut known, mut elsewhere, mut all) = (0, 0, 0);
+        self.settled.clear();
         for noticed in draws {
             let place = self.places.number(&noticed.verdict.model);
             let triangles = u64::from(noticed.verdict.triangles);
@@ -156,6 +168,10 @@ impl Memory {
         match memo.is_settled {
             true => memo.entries.iter().for_each(|&number| self.stamp(number)),
             false => memo.is_settled = self.stamp_new(frame, noticed, place, eye, &memo.entries),
+        }
+        if memo.is_settled {
+            let (operation, layers) = (noticed.verdict.operation, noticed.layers.len());
+            self.settled.push(Settled { operation, content, layers });
         }
         self.memos.insert(content, memo);
     }

@@ -372,3 +372,25 @@ fn two_runs_give_the_same_bits() {
     assert!(first.len() > 20);
     assert_eq!(first, run());
 }
+
+#[test]
+fn draws_within_what_is_handed_over_are_told_unless_they_look_otherwise() {
+    let mut recovery = Recovery::new();
+    let mut frame = |turned: f32, color: f32| {
+        let mut sketch = Sketch::new();
+        sketch.modelview = camera(turned);
+        let floor = sketch.draw(&ground().concat());
+        sketch.color = [color, 1.0, 1.0, 1.0];
+        let wall = if turned == 0.0 { Some(sketch.draw(&wall(-30.0, 5.0))) } else { None };
+        (recovery.understand(&mut sketch.frame), floor as u32, wall.map(|wall| wall as u32))
+    };
+    for _ in 0..4 {
+        assert!(frame(0.0, 1.0).0.covered.is_empty());
+    }
+    let (scene, floor, _) = frame(1.5, 1.0);
+    assert_eq!(scene.covered, [floor]);
+    assert!(unseen_triangles(&scene) >= 2 * 81 + 2);
+    // Drawn otherwise, it is not what is remembered; all drawn, nothing is handed over.
+    let (scene, ..) = frame(0.0, 0.5);
+    assert!(scene.covered.is_empty() && scene.unseen.is_empty());
+}

@@ -65,7 +65,7 @@ impl Backend for Understanding {
             false => report.moving.push(frame),
         }
         self.camera = scene.camera;
-        if report.every.is_some_and(|every| report.frames % every == 0) {
+        if report.every.is_some_and(|every| report.frames.is_multiple_of(every)) {
             println!("frame {}: {frame:?}, {:?}", report.frames, self.with.memory());
         }
         report.counts = self.with.memory();

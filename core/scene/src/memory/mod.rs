@@ -280,8 +280,8 @@ impl Memory {
         }
         let mut waiting = Vec::new();
         for heap in self.heaps.values_mut() {
-            let piles = heap.piles.extract_if(.., |kind, _| gone.contains(kind));
-            waiting.extend(piles.flat_map(|(_, pile)| pile.entries));
+            let piles = gone.iter().filter_map(|kind| heap.piles.remove(kind));
+            waiting.extend(piles.flat_map(|pile| pile.entries));
         }
         waiting.into_iter().for_each(|entry| self.forget_entry(entry));
     }
@@ -301,7 +301,10 @@ impl Memory {
     /// Forgets what was seen a few times and never again, and draws that have not come again.
     fn sweep(&mut self) {
         let since = self.now.saturating_sub(SWEEP_INTERVAL);
-        if self.entries.remove_seldom(since, |entry| entry.cell == NO_CELL && entry.sightings < 3) {
+        if self
+            .entries
+            .remove_seldom(since, |entry| entry.cell == NO_CELL && entry.sightings < notice::SIGHTINGS)
+        {
             self.memos.clear();
         }
         self.memos.retain(|_, memo| memo.drawn >= since);

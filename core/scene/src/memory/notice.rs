@@ -21,7 +21,7 @@ use crate::types::{Class, Scene, Verdict};
 /// Frames in which a triangle is drawn before it is remembered: what the program computes anew never is.
 pub const SIGHTINGS: u8 = 3;
 /// Entries of what was seen but not remembered yet, and of what was, at most.
-const MOST_ENTRIES: usize = 1 << 22;
+const MOST_ENTRIES: usize = 1 << 21;
 
 /// A draw of the static world.
 pub struct Noticed<'a> {

@@ -229,6 +229,7 @@ impl Context {
             {
                 *vertices += count as u32;
                 draw.index_count += added;
+                self.frame.seams.push(first_index as u32);
             }
         } else if added > 0 {
             let first_word = (self.frame.words.len() - count * layout.stride()) as u32;

@@ -81,6 +81,15 @@ impl Report {
             sum.draws += 1;
             sum.baked += if verdict.baked { u64::from(verdict.triangles) } else { 0 };
         }
+        if std::env::var_os("TIMELINE").is_some() {
+            let eye = scene.camera.map(|c| c.view.inverse().w_axis.truncate());
+            eprintln!(
+                "{} {:?} {:?}",
+                self.frames,
+                eye,
+                scene.triangles().named().iter().filter(|n| n.1 > 0).collect::<Vec<_>>()
+            );
+        }
         if self.wanted == Some(self.frames) {
             print_draws(frame, &scene);
         }

@@ -6,11 +6,20 @@ use glam::{DMat3, DMat4, DVec3, Mat4};
 use crate::draws::{DepthUse, DrawFacts, TransformFacts};
 use crate::geometry::{has_varying_colors, mean_color};
 use crate::matrix;
+use crate::objects::Motion;
 use crate::opacity::Mixing;
+use crate::shapes::Piece;
 use crate::surfaces::Surfaces;
+use crate::tracking::{Track, Tracker};
 use crate::types::{Class, Verdict};
-use crate::views::Views;
+use crate::views::{Views, share_of_drawable};
 use crate::world::{Stage, World};
+
+/// Share of the drawable below which a viewport is small.
+const SMALL: f64 = 0.15;
+
+/// One in so many triangles of a view that stand still in the world make it a view of the world.
+const OF_WORLD: u64 = 8;
 
 /// Class and reason.
 type Finding = (Class, &'static str);
@@ -21,8 +30,13 @@ struct Classifier<'a> {
     transforms: &'a [TransformFacts],
     views: &'a Views,
     world: &'a World,
-    world_from_eye: DMat4,
     surfaces: Surfaces,
+    /// Something of the world is seen in a mirror.
+    has_mirrors: bool,
+    /// What each view shows.
+    shown: Vec<Shown>,
+    /// What is known of the object that the draw at hand is of.
+    track: Option<&'a Track>,
     /// Operation of the surface that the draw at hand was found to be a layer of.
     base: Option<u32>,
 }
@@ -34,17 +48,50 @@ pub fn classify<'a>(
     views: &'a Views,
     world: &'a World,
     draws: &'a [DrawFacts<'a>],
+    pieces: &[Option<Piece>],
+    tracks: &'a [Option<Track>],
+    tracker: &Tracker,
 ) -> Vec<Verdict> {
     let candidates = draws
         .iter()
-        .filter(|d| d.place.view == world.view && d.operation > world.first && may_be_layer(d))
+        .filter(|d| d.place.view == world.place && d.operation > world.first && may_be_layer(d))
         .map(|d| (d, transforms[d.transform].modelview_hash));
     let surfaces = Surfaces::awaiting(candidates);
-    let world_from_eye = matrix::rigid_inverse(world.view_rigid);
-    let mut classifier = Classifier { frame, transforms, views, world, world_from_eye, surfaces, base: None };
-    let mut verdicts: Vec<Verdict> = draws.iter().map(|facts| classifier.verdict(facts)).collect();
+    let mut classifier = Classifier {
+        frame,
+        transforms,
+        views,
+        world,
+        surfaces,
+        has_mirrors: draws.iter().any(|facts| world.mirrors(facts, transforms)),
+        shown: shown(views, draws, pieces, tracker),
+        track: None,
+        base: None,
+    };
+    let mut verdicts: Vec<Verdict> =
+        draws.iter().zip(tracks).map(|(facts, track)| classifier.verdict(facts, track.as_ref())).collect();
     bake_below_lightmaps(frame, draws, &mut verdicts);
     verdicts
+}
+
+/// Triangles of a view, and those of them that are known to stand still in the world.
+#[derive(Debug, Clone, Copy, Default)]
+struct Shown {
+    all: u64,
+    of_world: u64,
+}
+
+fn shown(views: &Views, draws: &[DrawFacts], pieces: &[Option<Piece>], tracker: &Tracker) -> Vec<Shown> {
+    let mut shown = vec![Shown::default(); views.views.len()];
+    if views.views.len() > 1 {
+        for (facts, piece) in draws.iter().zip(pieces) {
+            let Some(piece) = piece else { continue };
+            let view = &mut shown[facts.place.view];
+            view.all += u64::from(facts.triangles);
+            view.of_world += if tracker.stands_still(piece) { u64::from(facts.triangles) } else { 0 };
+        }
+    }
+    shown
 }
 
 fn may_be_layer(facts: &DrawFacts) -> bool {
@@ -63,9 +110,9 @@ fn bake_below_lightmaps(frame: &Frame, draws: &[DrawFacts], verdicts: &mut [Verd
 }
 
 impl<'a> Classifier<'a> {
-    fn verdict(&mut self, facts: &DrawFacts) -> Verdict {
+    fn verdict(&mut self, facts: &DrawFacts, track: Option<&'a Track>) -> Verdict {
         let modelview = self.transform(facts).modelview_hash;
-        self.base = None;
+        (self.track, self.base) = (track, None);
         let (class, reason) = self.find(facts);
         if class.is_traced() {
             self.surfaces.add(self.frame, facts, modelview);
@@ -75,8 +122,8 @@ impl<'a> Classifier<'a> {
             class,
             reason,
             model: if class.is_traced() { self.model(facts).as_mat4() } else { Mat4::IDENTITY },
-            object: 0,
-            previous: None,
+            object: track.map_or(0, |track| track.object),
+            previous: track.and_then(|track| track.previous).map(|model| model.as_mat4()),
             baked: class.is_traced() && self.is_baked(facts),
             triangles: facts.triangles,
             base: self.base,
@@ -89,21 +136,18 @@ impl<'a> Classifier<'a> {
 
     /// Object to world space; the identity, exactly, when but for rounding it is.
     fn model(&self, facts: &DrawFacts) -> DMat4 {
-        let model = self.world_from_eye * self.transform(facts).modelview;
-        if self.is_view(facts) && matrix::similarity(model).is_some_and(|s| s.scale == 1.0) {
-            DMat4::IDENTITY
-        } else {
-            model
+        match self.track {
+            Some(track) => track.model,
+            None => self.world.world_from_eye() * self.transform(facts).eye,
         }
     }
 
-    /// Whether a draw's MODELVIEW is the world's.
+    /// Whether a draw's matrix is that which most of the world is drawn under.
     fn is_view(&self, facts: &DrawFacts) -> bool {
-        let modelview = self.transform(facts).modelview;
-        let reach = self.world.modelview.col(3).truncate().length().max(1.0);
-        let linear = DMat3::from_mat4(modelview);
-        linear.abs_diff_eq(DMat3::from_mat4(self.world.modelview), 1e-6)
-            && modelview.col(3).abs_diff_eq(self.world.modelview.col(3), 1e-6 * reach)
+        let (eye, base) = (self.transform(facts).eye, self.world.base_eye);
+        let reach = base.col(3).truncate().length().max(1.0);
+        DMat3::from_mat4(eye).abs_diff_eq(DMat3::from_mat4(base), 1e-6)
+            && eye.col(3).abs_diff_eq(base.col(3), 1e-6 * reach)
     }
 
     fn find(&mut self, facts: &DrawFacts) -> Finding {
@@ -130,16 +174,26 @@ impl<'a> Classifier<'a> {
     }
 
     fn other_view(&self, facts: &DrawFacts) -> Option<Finding> {
-        if facts.place.view == self.world.view {
+        if facts.place.view == self.world.place {
             return None;
         }
         let perspective = self.transform(facts).perspective.is_some();
         Some(match perspective && facts.depth != DepthUse::Off {
             _ if self.views.views[facts.place.view].erased => (Class::OtherView, "erased later"),
+            true if self.is_icon(facts) => (Class::Interface, "a thing of its own in a small viewport"),
             true => (Class::OtherView, "another viewport"),
             false if self.is_early(facts) => (Class::OtherView, "another viewport, flat"),
             false => (Class::Interface, "another viewport, flat"),
         })
+    }
+
+    /// Whether a draw in a small viewport over the world shows nothing of the world.
+    fn is_icon(&self, facts: &DrawFacts) -> bool {
+        let rect = self.views.views[facts.place.view].rect;
+        let is_small = share_of_drawable(rect, self.frame.size) < SMALL;
+        let of_world =
+            self.shown.get(facts.place.view).is_some_and(|shown| OF_WORLD * shown.of_world > shown.all);
+        is_small && self.is_late(facts) && !of_world
     }
 
     fn without_color(&self, facts: &DrawFacts) -> Option<Finding> {
@@ -154,8 +208,10 @@ impl<'a> Classifier<'a> {
         let is_volume = raster.stencil.is_some_and(|s| counts(s.depth_fail) || counts(s.pass))
             && matches!(facts.depth, DepthUse::Test)
             && !self.is_early(facts);
+        let marks = raster.stencil.is_some_and(|s| s.pass == StencilOp::Replace);
         Some(match is_volume {
             true => (Class::Dropped, "shadow volume"),
+            false if marks && self.has_mirrors => (Class::OtherView, "says where a mirror is"),
             false => (Class::Undecided, "writes no colour"),
         })
     }
@@ -205,10 +261,7 @@ impl<'a> Classifier<'a> {
 
     /// The world again under a reflection: seen where a plane or the stencil lets it be.
     fn mirrored(&self, facts: &DrawFacts) -> Option<Finding> {
-        let determinant = |m: DMat4| DMat3::from_mat4(m).determinant();
-        let modelview = self.transform(facts).modelview;
-        let is_mirrored = determinant(modelview) * determinant(self.world.modelview) < 0.0;
-        (facts.masked && is_mirrored).then_some((Class::OtherView, "mirrored"))
+        self.world.mirrors(facts, self.transforms).then_some((Class::OtherView, "mirrored"))
     }
 
     fn behind_all(&self, facts: &DrawFacts) -> Option<Finding> {
@@ -240,20 +293,25 @@ impl<'a> Classifier<'a> {
 
     /// Whether a draw turns with the world but keeps its place about the eye.
     fn is_carried_along(&self, facts: &DrawFacts) -> bool {
-        let modelview = self.transform(facts).modelview;
+        let eye = self.transform(facts).eye;
         let turned = |m: DMat4| DMat3::from_mat4(matrix::orthonormal(m));
-        if !turned(modelview).abs_diff_eq(turned(self.world.modelview), 1e-4) {
+        if !turned(eye).abs_diff_eq(turned(self.world.view), 1e-4) {
             return false;
         }
+        let extent = self.extent(facts);
+        let at_eye = eye.col(3).truncate().length() < 1e-3 * extent;
+        let world_moves = self.world.view.col(3).truncate().length() > 1e-3 * extent;
+        at_eye && world_moves
+    }
+
+    /// Diagonal of the box about a draw, eye space.
+    fn extent(&self, facts: &DrawFacts) -> f64 {
         let (mut least, mut most) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for sample in facts.eye_samples(self.frame, self.transforms, 64) {
             least = least.min(sample);
             most = most.max(sample);
         }
-        let extent = (most - least).length();
-        let at_eye = modelview.col(3).truncate().length() < 1e-3 * extent;
-        let world_moves = self.world.modelview.col(3).truncate().length() > 1e-3 * extent;
-        at_eye && world_moves
+        (most - least).length()
     }
 
     fn without_depth_test(&self, facts: &DrawFacts) -> Option<Finding> {
@@ -272,12 +330,8 @@ impl<'a> Classifier<'a> {
             return None;
         }
         let (modelview, mixing) = (self.transform(facts).modelview_hash, facts.mixing);
-        // Stains (with polygon offset) lie on surfaces, but are made of triangles of their own.
-        let in_other_batches =
-            facts.depth == DepthUse::Equal || (mixing == Mixing::Multiply && !self.is_biased(facts));
         self.base = self.surfaces.same(self.frame, facts.draw, modelview);
-        let again = self.base.is_some()
-            || (in_other_batches && self.surfaces.has_triangles(self.frame, facts.draw, modelview));
+        let again = self.base.is_some() || self.surfaces.has_triangles(self.frame, facts.draw, modelview);
         again.then_some(match mixing {
             Mixing::Multiply => (Class::Layer, "multiplies a surface drawn before"),
             Mixing::Add => (Class::Layer, "adds to a surface drawn before"),
@@ -296,8 +350,8 @@ impl<'a> Classifier<'a> {
             Mixing::Opaque | Mixing::CutOut if facts.depth == DepthUse::TestWrite => return None,
             _ if facts.depth == DepthUse::Equal => (Class::Undecided, "equal depth"),
             Mixing::Opaque => (Class::Undecided, "opaque, writes no depth"),
-            Mixing::Multiply if is_biased => (Class::Translucent, "stain on a surface"),
-            _ if is_biased => (Class::Translucent, "decal on a surface"),
+            Mixing::Multiply if is_biased => (Class::Layer, "stain on a surface"),
+            _ if is_biased => (Class::Layer, "decal on a surface"),
             Mixing::Multiply => (Class::Translucent, "multiplies what is behind"),
             Mixing::Add => (Class::Translucent, "adds to what is behind"),
             Mixing::CutOut | Mixing::Blend => (Class::Translucent, "blended"),
@@ -320,20 +374,41 @@ impl<'a> Classifier<'a> {
     }
 
     fn in_world(&self, facts: &DrawFacts) -> Finding {
-        let cut_out = facts.mixing == Mixing::CutOut;
+        let Some(track) = self.track else { return self.by_matrix(facts) };
+        if track.animated.is_some() {
+            return (Class::Dynamic, "its vertices move");
+        }
+        match track.motion {
+            Motion::Carried | Motion::Attached if self.surrounds(facts) => {
+                (Class::Sky, "all about the eye, wherever that is")
+            }
+            Motion::Carried | Motion::Attached => (Class::Movable, "goes with the camera"),
+            Motion::Moves => (Class::Movable, "moves"),
+            Motion::Still => (Class::Static, "stands still"),
+            Motion::Unknown => self.by_matrix(facts),
+        }
+    }
+
+    /// What is known before anything has moved.
+    fn by_matrix(&self, facts: &DrawFacts) -> Finding {
         match self.is_view(facts) {
-            true if cut_out => (Class::Static, "drawn under the view, cut out"),
             true => (Class::Static, "drawn under the view"),
-            false if cut_out => (Class::Movable, "has its own matrix, cut out"),
             false => (Class::Movable, "has its own matrix"),
         }
+    }
+
+    /// Whether a draw reaches around the eye and as far as the world does.
+    fn surrounds(&self, facts: &DrawFacts) -> bool {
+        let extent = self.extent(facts);
+        let centre =
+            facts.eye_samples(self.frame, self.transforms, 64).fold(DVec3::ZERO, |sum, p| sum + p) / 64.0;
+        extent >= 0.5 * self.world.extent && centre.length() < 0.3 * extent
     }
 
     /// Whether all of a draw is close to the eye, as the world goes.
     fn is_near(&self, facts: &DrawFacts) -> bool {
         let reach = 0.2 * self.world.extent;
-        let eye = self.transform(facts).perspective.map_or(DMat4::IDENTITY, |p| p.view);
-        facts.eye_samples(self.frame, self.transforms, 16).all(|p| eye.transform_point3(p).length() < reach)
+        facts.eye_samples(self.frame, self.transforms, 16).all(|p| p.length() < reach)
     }
 
     /// Whether a draw's colours are light that the program computed beforehand: unlit, and either a

@@ -36,6 +36,8 @@ pub struct TransformFacts {
     pub projection_hash: u64,
     /// The projection, unless orthographic.
     pub perspective: Option<Perspective>,
+    /// Object to eye space: MODELVIEW, and what of the view is in PROJECTION.
+    pub eye: DMat4,
     /// MODELVIEW makes things flat.
     pub flattening: bool,
     /// MODELVIEW holds sound numbers.
@@ -80,18 +82,26 @@ impl DrawFacts<'_> {
             && transforms[self.transform].sound
     }
 
-    /// Positions spread over the draw, in the space after MODELVIEW.
+    /// Positions spread over the draw, in eye space.
     pub fn eye_samples(
         &self,
         frame: &Frame,
         transforms: &[TransformFacts],
         count: usize,
     ) -> impl Iterator<Item = DVec3> {
-        let modelview = transforms[self.transform].modelview;
+        let eye = transforms[self.transform].eye;
         sample_positions(frame, self.draw, count)
-            .map(move |p| modelview.project_point3(p.as_dvec3()))
+            .map(move |p| eye.project_point3(p.as_dvec3()))
             .filter(|p| p.is_finite())
     }
+}
+
+/// Whether a draw's state lets it be a surface of a world, as far as that is known before anything else.
+pub fn may_be_solid(frame: &Frame, draw: &Draw) -> bool {
+    let raster = &frame.fixed[draw.fixed as usize].raster;
+    let projection = &frame.transforms[draw.transform as usize].projection;
+    let is_perspective = projection.iter().take(3).any(|column| column[3] != 0.0);
+    depth_use(raster.depth) == DepthUse::TestWrite && raster.color_mask & 7 != 0 && is_perspective
 }
 
 /// Facts on all distinct transforms of a frame, in the order of its table.
@@ -125,6 +135,7 @@ fn transform_facts(
         modelview_hash: hash(&transform.modelview),
         projection_hash,
         perspective,
+        eye: perspective.map_or(modelview, |p| p.view * modelview),
         flattening: matrix::is_flattening(modelview),
         sound: matrix::is_sound(modelview),
     }

@@ -5,20 +5,26 @@
 
 mod classify;
 mod color;
+mod consensus;
+mod content;
 mod draws;
+mod formers;
 mod geometry;
 mod images;
 mod lights;
 mod matrix;
 mod memory;
+mod objects;
 mod opacity;
 mod recovery;
+mod shapes;
 mod sky;
 mod surfaces;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
 mod tests;
+mod tracking;
 mod types;
 mod views;
 mod world;

@@ -8,10 +8,11 @@ use crate::draws::{self, DrawFacts, TransformFacts};
 use crate::geometry::ContentCache;
 use crate::images::Images;
 use crate::lights::{self, Lighting};
-use crate::matrix;
 use crate::memory::{Memory, MemoryCounts};
+use crate::shapes::Shapes;
 use crate::sky;
-use crate::types::{Camera, Class, Scene, Verdict};
+use crate::tracking::{Track, Tracker};
+use crate::types::{Camera, Class, Deformed, Scene, Verdict};
 use crate::views::Views;
 use crate::world::World;
 
@@ -25,6 +26,8 @@ const LEAST_LIT: f32 = 0.1;
 pub struct Recovery {
     images: Images,
     cache: ContentCache,
+    shapes: Shapes,
+    tracker: Tracker,
     up: Option<Vec3>,
     memory: Memory,
 }
@@ -67,16 +70,20 @@ impl Recovery {
         scene
     }
 
-    fn scene(&mut self, frame: &Frame) -> Scene {
+    fn scene(&mut self, frame: &mut Frame) -> Scene {
+        let pieces = self.shapes.cut(frame, &self.images, &mut self.tracker.objects, draws::may_be_solid);
+        let frame = &*frame;
         let views = Views::split(frame);
         let transforms = draws::transforms(frame);
         let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
-        let Some(world) = World::find(frame, &views, &draws, &transforms) else {
+        let Some(mut world) = World::find(frame, &views, &draws, &transforms) else {
             return flat_scene(&draws);
         };
-        let verdicts = classify(frame, &transforms, &views, &world, &draws);
-        let background = views.views[world.view].background;
-        self.light(frame, &world, &draws, &transforms, verdicts, background)
+        let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
+        let verdicts = classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks, &self.tracker);
+        let background = views.views[world.place].background;
+        let deformed = deformed(&draws, &verdicts, tracks);
+        Scene { deformed, ..self.light(frame, &world, &draws, &transforms, verdicts, background) }
     }
 
     fn light(
@@ -88,10 +95,10 @@ impl Recovery {
         verdicts: Vec<Verdict>,
         background: Option<[f32; 4]>,
     ) -> Scene {
-        let world_from_eye = matrix::rigid_inverse(world.view_rigid);
+        let centre = world.world_from_eye().transform_point3(world.centre);
         let of_world = draws.iter().zip(&verdicts).filter(|(_, v)| is_world(v)).map(|(d, _)| d);
         let Lighting { mut lights, ambient, lit_share } =
-            lights::gather(frame, of_world, world_from_eye, world.centre, world.extent);
+            lights::gather(frame, of_world, world.world_from_modelview(), centre, world.extent);
         if lit_share < LEAST_LIT {
             lights.clear();
         }
@@ -104,17 +111,14 @@ impl Recovery {
             sky = sky.max(FALLBACK_SKY * 0.5);
         }
         Scene {
-            camera: Some(Camera {
-                view: world.view_matrix(),
-                projection: world.perspective.projection.as_mat4(),
-            }),
+            camera: Some(Camera { view: world.view, projection: world.perspective.projection.as_mat4() }),
             verdicts,
             deformed: Vec::new(),
             lights,
             sky,
             ambient,
             baked,
-            epoch: 0,
+            epoch: self.tracker.epoch,
             unseen: Vec::new(),
             covered: Vec::new(),
         }
@@ -122,7 +126,7 @@ impl Recovery {
 
     /// The axis of the world that points most upward on screen, kept until another clearly does.
     fn up(&mut self, world: &World) -> Vec3 {
-        let world_from_eye = DMat3::from_mat4(world.view_matrix()).transpose();
+        let world_from_eye = DMat3::from_mat4(world.view).transpose();
         let upward = (world_from_eye * world.perspective.upward()).as_vec3();
         let axis = nearest_axis(upward);
         let kept = self.up.filter(|up| up.dot(upward) > 0.2);
@@ -136,6 +140,17 @@ impl Drop for Recovery {
         self.memory.save(&self.images);
         self.memory.finish();
     }
+}
+
+/// Where the corners of animated draws were.
+fn deformed(draws: &[DrawFacts], verdicts: &[Verdict], tracks: Vec<Option<Track>>) -> Vec<Deformed> {
+    let traced = draws.iter().zip(verdicts).zip(tracks).filter(|((_, verdict), _)| verdict.class.is_traced());
+    let moved = traced.filter_map(|((facts, verdict), track)| {
+        let positions = track?.animated?;
+        let is_whole = positions.len() == facts.draw.index_count as usize;
+        is_whole.then_some(Deformed { operation: verdict.operation, positions })
+    });
+    moved.collect()
 }
 
 fn nearest_axis(direction: Vec3) -> Vec3 {

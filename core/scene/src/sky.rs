@@ -102,8 +102,10 @@ fn shown(frame: &Frame, facts: &DrawFacts, images: &Images) -> Vec4 {
 /// Solid angle that a draw's triangles fill about the eye, steradians. A draw in orthographic projection
 /// counts as if it filled all directions.
 fn solid_angle(frame: &Frame, facts: &DrawFacts, transform: &TransformFacts) -> f64 {
-    let Some(perspective) = transform.perspective else { return 4.0 * std::f64::consts::PI };
-    let eye = perspective.view * transform.modelview;
+    if transform.perspective.is_none() {
+        return 4.0 * std::f64::consts::PI;
+    }
+    let eye = transform.eye;
     let triangles = facts.triangles as usize;
     let measured = triangles.min(MEASURED);
     let Some(positions) = Attribute::of(frame, facts.draw, Slot::Position as usize) else { return 0.0 };

@@ -1,11 +1,11 @@
 //! Surfaces that a frame has drawn, to find what is drawn over them again: layers.
 
 use afterglow_gl::frame::{Draw, Frame, Slot};
-use glam::Vec4;
 use hashbrown::{HashMap, HashSet};
 
+use crate::content::triangle_key;
 use crate::draws::DrawFacts;
-use crate::geometry::{Attribute, hash_positions, mix};
+use crate::geometry::{Attribute, hash_positions};
 
 /// Triangles of a draw that are looked up.
 const TRIED: usize = 16;
@@ -72,25 +72,4 @@ fn triangle_keys<'a>(frame: &'a Frame, draw: &Draw, count: usize) -> impl Iterat
         .into_iter()
         .flat_map(move |p| (0..count).map(move |i| (p, 3 * (i * triangles / count))))
         .filter_map(|(p, i)| Some(triangle_key([p.get(i)?, p.get(i + 1)?, p.get(i + 2)?])))
-}
-
-fn triangle_key(mut corners: [Vec4; 3]) -> u64 {
-    let order = |corner: &Vec4| (*corner + Vec4::ZERO).to_array().map(f32::to_bits);
-    let smallest = if order(&corners[1]) < order(&corners[0]) { 1 } else { 0 };
-    let smallest = if order(&corners[2]) < order(&corners[smallest]) { 2 } else { smallest };
-    corners.rotate_left(smallest);
-    corners.into_iter().fold(3, mix)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_triangle_is_the_same_from_any_corner_but_not_from_behind() {
-        let [a, b, c] = [Vec4::new(1., 0., -0., 1.), Vec4::new(0., 2., 0., 1.), Vec4::new(3., 3., 3., 1.)];
-        assert_eq!(triangle_key([a, b, c]), triangle_key([c, a, b]));
-        assert_eq!(triangle_key([a, b, c]), triangle_key([b, c, Vec4::new(1., 0., 0., 1.)]));
-        assert_ne!(triangle_key([a, b, c]), triangle_key([a, c, b]));
-    }
 }

@@ -1,10 +1,11 @@
 //! Which part of a frame is the world, and the camera that it was drawn with.
 
-use afterglow_gl::frame::Frame;
-use glam::{DMat4, DVec3};
+use afterglow_gl::frame::{Draw, Frame};
+use glam::{DMat3, DMat4, DVec3, Vec3};
 use hashbrown::HashMap;
 
 use crate::draws::{DrawFacts, TransformFacts};
+use crate::geometry::sample_positions;
 use crate::matrix::{self, Perspective};
 use crate::views::{Views, share_of_drawable};
 
@@ -14,23 +15,29 @@ const LEAST_SHARE: f64 = 0.1;
 /// The world of a frame.
 #[derive(Debug, Clone)]
 pub struct World {
-    /// Index of its view.
-    pub view: usize,
+    /// Index of its view among the frame's.
+    pub place: usize,
     /// What its draws have in common.
     pub stage: Stage,
     /// The projection, and what the program put in front of it.
     pub perspective: Perspective,
-    /// MODELVIEW that stands for the view.
-    pub modelview: DMat4,
-    /// Its rigid part: world space to the space after MODELVIEW.
-    pub view_rigid: DMat4,
+    /// The view if it is what most was drawn under: a first guess, rigid.
+    pub base: DMat4,
+    /// The matrix that it was, with what scale it has.
+    pub base_eye: DMat4,
+    /// World to eye space, once it is known.
+    pub view: DMat4,
+    /// How many pixels a unit at distance one takes.
+    pub focal: f64,
+    /// Positions of what was drawn under that matrix, object space.
+    pub samples: Vec<Vec3>,
     /// First operation that draws a surface of it.
     pub first: u32,
     /// Last operation that draws a surface of it.
     pub last: u32,
     /// Diagonal of the box around what was drawn.
     pub extent: f64,
-    /// Mean of what was drawn, in world space.
+    /// Mean of what was drawn, in eye space.
     pub centre: DVec3,
 }
 
@@ -93,25 +100,50 @@ impl World {
             matrices.entry(hash).or_default().add(frame, facts, transforms);
         }
         let (_, chosen) = heaviest(&matrices, |g| g.view_weight(whole, transforms))?;
-        let modelview = transforms[chosen.transform].modelview;
-        let view_rigid =
-            matrix::similarity(modelview).map_or_else(|| matrix::orthonormal(modelview), |s| s.rigid);
+        let facts = &transforms[chosen.transform];
+        let base = matrix::similarity(facts.eye).map_or_else(|| matrix::orthonormal(facts.eye), |s| s.rigid);
+        let perspective = facts.perspective?;
+        let height = f64::from(views.views[view].rect.height);
         Some(World {
-            view,
+            place: view,
             stage: *stage,
-            perspective: transforms[chosen.transform].perspective?,
-            modelview,
-            view_rigid,
+            perspective,
+            base,
+            base_eye: facts.eye,
+            view: base,
+            focal: (perspective.projection.y_axis.y.abs() * height / 2.0).clamp(1.0, 1e6),
+            samples: sample_positions(frame, &chosen.draw?, 8).collect(),
             first: whole.first,
             last: whole.last,
             extent: whole.extent(),
-            centre: matrix::rigid_inverse(view_rigid).transform_point3(whole.mean()),
+            centre: whole.mean(),
         })
     }
 
-    /// World space to true eye space.
-    pub fn view_matrix(&self) -> DMat4 {
-        self.perspective.view * self.view_rigid
+    /// Eye to world space.
+    pub fn world_from_eye(&self) -> DMat4 {
+        matrix::rigid_inverse(self.view)
+    }
+
+    /// The space after MODELVIEW to world space.
+    pub fn world_from_modelview(&self) -> DMat4 {
+        self.world_from_eye() * self.perspective.view
+    }
+
+    /// Whether a draw may be of an object of the world.
+    pub fn may_hold(&self, facts: &DrawFacts, transforms: &[TransformFacts]) -> bool {
+        facts.place.view == self.place && facts.is_solid(transforms) && !self.mirrors(facts, transforms)
+    }
+
+    /// Whether a draw is on the world's own stage.
+    pub fn is_on_stage(&self, facts: &DrawFacts, transforms: &[TransformFacts]) -> bool {
+        Stage::of(facts, transforms) == self.stage
+    }
+
+    /// Whether a draw shows the world in a mirror: reflected, where a plane or the stencil lets it be.
+    pub fn mirrors(&self, facts: &DrawFacts, transforms: &[TransformFacts]) -> bool {
+        let determinant = |m: DMat4| DMat3::from_mat4(m).determinant();
+        facts.masked && determinant(transforms[facts.transform].eye) * determinant(self.base) < 0.0
     }
 }
 
@@ -142,6 +174,7 @@ fn heaviest<K>(groups: &HashMap<K, Group>, weight: impl Fn(&Group) -> f64) -> Op
 #[derive(Debug, Clone)]
 struct Group {
     transform: usize,
+    draw: Option<Draw>,
     triangles: u64,
     first: u32,
     last: u32,
@@ -155,6 +188,7 @@ impl Default for Group {
     fn default() -> Group {
         Group {
             transform: 0,
+            draw: None,
             triangles: 0,
             first: u32::MAX,
             last: 0,
@@ -170,6 +204,7 @@ impl Group {
     fn add(&mut self, frame: &Frame, facts: &DrawFacts, transforms: &[TransformFacts]) {
         if self.triangles == 0 {
             self.transform = facts.transform;
+            self.draw = Some(*facts.draw);
         }
         self.triangles += u64::from(facts.triangles);
         self.first = self.first.min(facts.operation);
@@ -199,7 +234,7 @@ impl Group {
     /// As a candidate for the view: rigid matrices before scaled ones before all others, unless nearly
     /// everything is drawn under it.
     fn view_weight(&self, whole: &Group, transforms: &[TransformFacts]) -> f64 {
-        let preference = match matrix::similarity(transforms[self.transform].modelview) {
+        let preference = match matrix::similarity(transforms[self.transform].eye) {
             Some(found) if found.scale == 1.0 => 1.0,
             Some(_) => 0.25,
             None => 0.05,

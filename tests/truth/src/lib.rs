@@ -4,6 +4,8 @@
 //! which writes the calls into a trace and, beside it, the [`Truth`]: the camera, the lights, and what each
 //! triangle is. [`measure`] plays the trace and compares what scene recovery says with that.
 //!
+//! An *oracle* ([`oracle`]) says the same of a real program, whose trace was recorded: `--oracle NAME TRACE`.
+//!
 //! `cargo run --release -p afterglow-truth` prints the figures of all styles; `--write DIR` leaves traces and truths, which
 //! `afterglow replay` shows.
 //!
@@ -12,6 +14,7 @@
 mod client;
 pub mod kit;
 pub mod measure;
+pub mod oracle;
 pub mod styles;
 mod truth;
 

@@ -41,6 +41,9 @@ enum ClassName {
     Undecided,
 }
 
+/// From this number on, objects are told apart by nobody: identities are not asked of them.
+pub const UNNAMED: u64 = 1 << 32;
+
 /// Consecutive triangles that are one thing, in the order in which the program submits them; strips, fans, quads and
 /// polygons count as the triangles that OpenGL makes of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use afterglow_scene::{Class, LightShape};
-use afterglow_truth::measure::{ClassScore, Observed, Report, compare, measure, play};
+use afterglow_truth::measure::{ClassScore, Observed, Report, compare, measure, measure_played, play};
 use afterglow_truth::styles::{self, STYLES};
 use afterglow_truth::{Recording, Truth};
 use glam::{DMat3, DMat4, DVec3};
@@ -55,7 +55,8 @@ fn cameras_are_rigid_and_move() {
         for view in &views {
             let rotation = DMat3::from_mat4(*view);
             assert!((rotation * rotation.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-9), "{}", truth.style);
-            assert!((rotation.determinant() - 1.0).abs() < 1e-9, "{}", truth.style);
+            let handedness = if truth.style == "mirrored_view" { -1.0 } else { 1.0 };
+            assert!((rotation.determinant() - handedness).abs() < 1e-9, "{}", truth.style);
         }
         assert!(views.windows(2).any(|pair| !pair[0].abs_diff_eq(pair[1], 1e-3)), "{}", truth.style);
     }
@@ -133,6 +134,49 @@ fn a_recovery_that_is_wrong_has_not() {
     assert!((report.camera.worst_position - 0.1).abs() < 1e-9);
     let identity = report.identity.unwrap();
     assert_eq!(identity.switches, identity.chances);
+}
+
+#[test]
+fn what_stands_stays_where_it_is_by_the_right_camera_alone() {
+    let moved = DMat4::from_rotation_x(0.4) * DMat4::from_translation(DVec3::new(2.0, 1.0, -5.0));
+    let Recording { trace, truth } = styles::named("own_matrices").unwrap().record().unwrap();
+    let mut played = play(&trace).unwrap();
+    for (frame, told) in played.iter_mut().zip(&truth.frames) {
+        frame.observed = Observed::ideal(told);
+        frame.observed.camera.as_mut().unwrap().view *= moved.inverse();
+    }
+    let stability = measure_played(&truth, &played).unwrap().stability.unwrap();
+    assert_eq!((stability.frames, stability.stable), (truth.frames.len(), 1.0));
+    assert!(stability.worst < 0.01, "{}", stability.worst);
+    // A hundredth of a radian is about two pixels.
+    played[20].observed.camera.as_mut().unwrap().view *= DMat4::from_rotation_y(0.01);
+    played[21].observed.camera = None;
+    let stability = measure_played(&truth, &played).unwrap().stability.unwrap();
+    let frames = truth.frames.len() as f64;
+    assert_eq!(stability.stable, (frames - 2.0) / frames);
+    assert!(stability.worst > 2.0 && stability.median < 0.01);
+}
+
+#[test]
+fn what_is_undecided_counts_nowhere_and_what_is_traced_wrongly_counts() {
+    let truth = STYLES[0].record().unwrap().truth;
+    let mut told = truth.clone();
+    for label in told.frames.iter_mut().flat_map(|frame| &mut frame.labels) {
+        label.class = if label.class == Class::Interface { label.class } else { Class::Undecided };
+    }
+    let mut observed = ideal(&truth);
+    for run in observed.iter_mut().flat_map(|frame| &mut frame.runs) {
+        run.class = Class::Static;
+    }
+    let report = compare(&told, &observed).unwrap();
+    let count = |class: Class| -> u64 {
+        let labels = told.frames.iter().flat_map(|frame| &frame.labels);
+        labels.filter(|label| label.class == class).map(|label| label.triangles).sum()
+    };
+    assert_eq!(report.traced.undecided, count(Class::Undecided));
+    assert_eq!(report.traced.interface, count(Class::Interface));
+    assert_eq!((report.traced.translucent, report.traced.others), (0, 0));
+    assert_eq!(class(&report, "static").settled.told, 0);
 }
 
 #[test]

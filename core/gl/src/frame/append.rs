@@ -48,6 +48,7 @@ impl Frame {
         self.operations.extend(later.operations.drain(..).map(|operation| offsets.operation(operation)));
         self.words.append(&mut later.words);
         self.indices.append(&mut later.indices);
+        self.seams.extend(later.seams.drain(..).map(|seam| seam + offsets.indices));
         self.retained.append(&mut later.retained);
         self.fixed.append(&mut later.fixed);
         self.viewports.append(&mut later.viewports);

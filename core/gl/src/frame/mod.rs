@@ -252,6 +252,8 @@ pub struct Frame {
     pub words: Vec<u32>,
     /// Indices of this frame.
     pub indices: Vec<u32>,
+    /// Where in `indices` a primitive of the program continues a draw, in order: programs' own seams within draws.
+    pub seams: Vec<u32>,
     /// Ranges that outlive the frame.
     pub retained: Vec<Arc<RetainedRange>>,
     pub fixed: Vec<FixedState>,
@@ -273,6 +275,7 @@ impl Frame {
         self.operations.clear();
         self.words.clear();
         self.indices.clear();
+        self.seams.clear();
         self.retained.clear();
         self.fixed.clear();
         self.viewports.clear();

@@ -105,6 +105,11 @@ impl Client {
         self.frame.lights.push(light);
     }
 
+    /// Says that a draw that was written by [`call`](Self::call) has so many triangles.
+    pub fn drawn(&mut self, thing: Thing, triangles: u64) {
+        self.count(thing, triangles);
+    }
+
     fn count(&mut self, Thing { class, object }: Thing, triangles: u64) {
         match self.frame.labels.last_mut() {
             Some(last) if (last.class, last.object) == (class, object) => last.triangles += triangles,

@@ -11,7 +11,7 @@ use super::Observed;
 use crate::truth::{TrueCamera, Truth};
 
 /// A camera is right within this, relative to the world's extent and in radians.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-4;
 
 /// What was measured of the camera.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -20,7 +20,7 @@ pub struct CameraScore {
     pub shown: usize,
     /// Share of them in which a camera was found.
     pub found: f64,
-    /// Share of them in which it is right, to a thousandth.
+    /// Share of them in which it is right, to a ten-thousandth.
     pub right: f64,
     /// Frames without a world in which a camera was found.
     pub invented: usize,
@@ -45,25 +45,52 @@ impl Error {
     }
 }
 
+/// True and recovered camera of a frame.
+type Pair = (TrueCamera, TrueCamera);
+
+/// Of each world, the transform from recovery's space to the true one.
+#[derive(Debug)]
+pub struct Alignments(Vec<(u32, DMat4)>);
+
+impl Alignments {
+    /// Those of a run.
+    pub fn of(truth: &Truth, observed: &[Observed]) -> Alignments {
+        let worlds = worlds(truth, observed);
+        let aligned = worlds.iter().map(|(world, pairs)| (*world, common_transform(pairs, truth.extent)));
+        Alignments(aligned.collect())
+    }
+
+    /// That of a world; nothing if no camera was found in it.
+    pub fn of_world(&self, world: u32) -> Option<DMat4> {
+        self.0.iter().find(|(known, _)| *known == world).map(|(_, transform)| *transform)
+    }
+}
+
+/// The cameras of each world.
+fn worlds(truth: &Truth, observed: &[Observed]) -> Vec<(u32, Vec<Pair>)> {
+    let mut worlds: Vec<(u32, Vec<Pair>)> = Vec::new();
+    for (frame, observed) in truth.frames.iter().zip(observed) {
+        let Some(pair) = frame.camera.zip(observed.camera) else { continue };
+        match worlds.iter_mut().find(|(world, _)| *world == frame.world) {
+            Some((_, pairs)) => pairs.push(pair),
+            None => worlds.push((frame.world, vec![pair])),
+        }
+    }
+    worlds
+}
+
 /// Scores the camera. Each world has a transform of its own.
 pub fn score(truth: &Truth, observed: &[Observed]) -> CameraScore {
     let mut score = CameraScore::default();
     let (mut found, mut right) = (0, 0);
-    let mut worlds: Vec<(u32, Vec<(TrueCamera, TrueCamera)>)> = Vec::new();
     for (frame, observed) in truth.frames.iter().zip(observed) {
-        match (frame.camera, observed.camera) {
-            (Some(told), Some(seen)) => match worlds.iter_mut().find(|(world, _)| *world == frame.world) {
-                Some((_, pairs)) => pairs.push((told, seen)),
-                None => worlds.push((frame.world, vec![(told, seen)])),
-            },
-            (None, Some(_)) => score.invented += 1,
-            _ => {}
-        }
         score.shown += usize::from(frame.camera.is_some());
+        score.invented += usize::from(frame.camera.is_none() && observed.camera.is_some());
     }
-    for (_, pairs) in &worlds {
-        let transform = common_transform(pairs, truth.extent);
-        for (told, seen) in pairs {
+    let alignments = Alignments::of(truth, observed);
+    for (world, pairs) in worlds(truth, observed) {
+        let transform = alignments.of_world(world).unwrap_or(DMat4::IDENTITY);
+        for (told, seen) in &pairs {
             let error = error(told.view * transform, seen.view, truth.extent);
             found += 1;
             right += usize::from(error.size() < TOLERANCE);
@@ -79,7 +106,7 @@ pub fn score(truth: &Truth, observed: &[Observed]) -> CameraScore {
 }
 
 /// V⁻¹ W of the frame for which the errors of all others add up to least.
-fn common_transform(pairs: &[(TrueCamera, TrueCamera)], extent: f64) -> DMat4 {
+fn common_transform(pairs: &[Pair], extent: f64) -> DMat4 {
     let candidates = pairs.iter().map(|(told, seen)| told.view.inverse() * seen.view);
     let sum = |transform: &DMat4| -> f64 {
         let errors = pairs.iter().map(|(told, seen)| error(told.view * *transform, seen.view, extent));

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use afterglow_scene::Class;
 use serde::Serialize;
 
 use super::Observed;
@@ -52,20 +53,55 @@ pub struct ClassScore {
     pub recall: Option<f64>,
     /// For what settled triangles of the class were taken, where for another: class and number of triangles.
     pub taken_for: BTreeMap<&'static str, u64>,
+    /// The same with the reasons that were given.
+    pub because: BTreeMap<String, u64>,
+}
+
+/// Triangles that are traced though they should be rasterized, and those of which nobody can say.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct TracedScore {
+    /// Of the interface.
+    pub interface: u64,
+    /// That are translucent.
+    pub translucent: u64,
+    /// Of skies, layers, other views, and what is to be dropped.
+    pub others: u64,
+    /// That the truth leaves undecided; they count nowhere else.
+    pub undecided: u64,
+}
+
+/// Counts what is traced and should not be.
+pub fn traced(truth: &Truth, observed: &[Observed]) -> TracedScore {
+    let mut score = TracedScore::default();
+    for (frame, observed) in truth.frames.iter().zip(observed) {
+        for (label, run, count) in observed.beside(frame) {
+            match label.class {
+                Class::Undecided => score.undecided += count,
+                _ if label.class.is_traced() || !run.class.is_traced() => {}
+                Class::Interface => score.interface += count,
+                Class::Translucent => score.translucent += count,
+                _ => score.others += count,
+            }
+        }
+    }
+    score
 }
 
 /// Scores all classes that occur.
 pub fn score(truth: &Truth, observed: &[Observed]) -> Vec<ClassScore> {
     let (mut settled, mut young) = ([Counts::default(); CLASSES.len()], [Counts::default(); CLASSES.len()]);
     let mut taken_for = vec![BTreeMap::new(); CLASSES.len()];
+    let mut because = vec![BTreeMap::new(); CLASSES.len()];
     let mut ages = Ages::default();
     for (frame, observed) in truth.frames.iter().zip(observed) {
-        for (label, run, count) in observed.beside(frame) {
+        let decided = observed.beside(frame).filter(|(label, ..)| label.class != Class::Undecided);
+        for (label, run, count) in decided {
             let is_young = ages.of(label.object) < HYSTERESIS;
             let counts = if is_young { &mut young } else { &mut settled };
             let (told, found) = (class_index(label.class), class_index(run.class));
             if told != found && !is_young {
                 *taken_for[told].entry(CLASSES[found].1).or_default() += count;
+                *because[told].entry(format!("{}: {}", CLASSES[found].1, run.reason)).or_default() += count;
             }
             counts[told].told += count;
             counts[found].found += count;
@@ -82,6 +118,7 @@ pub fn score(truth: &Truth, observed: &[Observed]) -> Vec<ClassScore> {
             precision: settled.precision(),
             recall: settled.recall(),
             taken_for,
+            because: std::mem::take(&mut because[index]),
         }
     };
     let occurs = |c: &Counts| c.told + c.found > 0;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use serde::Serialize;
 
 use super::Observed;
-use crate::truth::{FrameTruth, Truth};
+use crate::truth::{FrameTruth, Truth, UNNAMED};
 
 /// What was measured of identities.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
@@ -36,10 +36,11 @@ pub fn score(truth: &Truth, observed: &[Observed]) -> Option<IdentityScore> {
 }
 
 /// The identity that most triangles of each object have. Reflections, shadows and layers of an object have its number,
-/// too, but are not it.
+/// too, but are not it. Those without a name are left out.
 fn identities(frame: &FrameTruth, observed: &Observed) -> HashMap<u64, u64> {
     let mut votes: HashMap<u64, BTreeMap<u64, u64>> = HashMap::new();
-    let things = observed.beside(frame).filter(|(label, ..)| label.class.is_traced());
+    let things =
+        observed.beside(frame).filter(|(label, ..)| label.class.is_traced() && label.object < UNNAMED);
     for (label, run, count) in things {
         if let Some(identity) = run.object {
             *votes.entry(label.object).or_default().entry(identity).or_default() += count;

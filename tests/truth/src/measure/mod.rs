@@ -6,6 +6,7 @@ mod identity;
 mod lights;
 mod observe;
 mod play;
+mod stability;
 mod table;
 
 use serde::Serialize;
@@ -13,12 +14,13 @@ use serde::Serialize;
 use crate::client::Recording;
 use crate::truth::Truth;
 pub use camera::CameraScore;
-pub use classes::{ClassScore, HYSTERESIS};
+pub use classes::{ClassScore, HYSTERESIS, TracedScore};
 pub use identity::IdentityScore;
 pub use lights::LightScore;
 pub use observe::{Observed, Run};
-pub use play::{Played, play};
-pub use table::write_table;
+pub use play::{Played, play, play_file};
+pub use stability::{Samples, StabilityScore};
+pub use table::{write_table, write_wrong};
 
 /// What was measured of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -35,6 +37,10 @@ pub struct Report {
     pub lights: LightScore,
     /// Of objects' identities; nothing while recovery does not tell objects apart.
     pub identity: Option<IdentityScore>,
+    /// Of what is traced and should not be.
+    pub traced: TracedScore,
+    /// Of the static world's place on screen; nothing where only verdicts are compared.
+    pub stability: Option<StabilityScore>,
 }
 
 /// Plays a recording and measures what scene recovery makes of it.
@@ -42,9 +48,17 @@ pub struct Report {
 /// # Errors
 /// Where the trace cannot be played, or its frames do not have the triangles that the truth says.
 pub fn measure(recording: &Recording) -> anyhow::Result<Report> {
-    let played = play(&recording.trace)?;
-    let observed: Vec<Observed> = played.into_iter().map(|frame| frame.observed).collect();
-    compare(&recording.truth, &observed)
+    measure_played(&recording.truth, &play(&recording.trace)?)
+}
+
+/// Measures what scene recovery made of frames that were played.
+///
+/// # Errors
+/// Where they do not have the triangles that the truth says.
+pub fn measure_played(truth: &Truth, played: &[Played]) -> anyhow::Result<Report> {
+    let observed: Vec<Observed> = played.iter().map(|frame| frame.observed.clone()).collect();
+    let report = compare(truth, &observed)?;
+    Ok(Report { stability: Some(stability::score(truth, &observed, played)), ..report })
 }
 
 /// Compares what was recovered with the truth.
@@ -69,5 +83,7 @@ pub fn compare(truth: &Truth, observed: &[Observed]) -> anyhow::Result<Report> {
         camera: camera::score(truth, observed),
         lights: lights::score(truth, observed),
         identity: identity::score(truth, observed),
+        traced: classes::traced(truth, observed),
+        stability: None,
     })
 }

@@ -12,6 +12,8 @@ pub struct Run {
     pub class: Class,
     /// The object that they are taken to belong to.
     pub object: Option<u64>,
+    /// Why.
+    pub reason: &'static str,
     /// How many.
     pub triangles: u64,
 }
@@ -32,6 +34,7 @@ impl Observed {
     pub fn of(scene: &Scene) -> Observed {
         let runs = scene.verdicts.iter().map(|verdict| Run {
             class: verdict.class,
+            reason: verdict.reason,
             object: (verdict.object != 0).then_some(verdict.object),
             triangles: verdict.triangles.into(),
         });
@@ -50,6 +53,7 @@ impl Observed {
     pub fn ideal(truth: &FrameTruth) -> Observed {
         let runs = truth.labels.iter().map(|label| Run {
             class: label.class,
+            reason: "so it is",
             object: Some(label.object),
             triangles: label.triangles,
         });

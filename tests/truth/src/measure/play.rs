@@ -1,17 +1,19 @@
 //! Plays a trace, and lets recovery understand its frames.
 
 use std::io::Cursor;
+use std::path::Path;
 use std::sync::Arc;
 
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::{Frame, Topology};
-use afterglow_player::{DrawableSizes, Player};
+use afterglow_player::{DrawableSizes, PlayReport, Player, TraceSummary};
 use afterglow_scene::Recovery;
 use afterglow_trace::TraceReader;
-use anyhow::ensure;
+use anyhow::{Context, ensure};
 use parking_lot::Mutex;
 
 use super::Observed;
+use super::stability::{Samples, sample};
 use crate::client::WINDOW;
 
 /// A frame as it was played.
@@ -21,6 +23,8 @@ pub struct Played {
     pub triangles: u64,
     /// What recovery said.
     pub observed: Observed,
+    /// Where some of the vertices were.
+    pub samples: Samples,
 }
 
 /// Understands frames in place of drawing them.
@@ -35,6 +39,7 @@ struct Watcher {
 impl Watcher {
     fn watch(&mut self, mut frame: Frame) {
         let scene = self.recovery.understand(&mut frame);
+        sample(&frame, self.part.triangles, &mut self.part.samples);
         let triangles = frame.draws().filter(|(_, draw)| draw.topology == Topology::Triangles);
         self.part.triangles += triangles.map(|(_, draw)| u64::from(draw.index_count / 3)).sum::<u64>();
         let observed = Observed::of(&scene);
@@ -63,9 +68,30 @@ impl Backend for Watcher {
 /// # Errors
 /// Where a call cannot be played, or is an error of OpenGL.
 pub fn play(trace: &[u8]) -> anyhow::Result<Vec<Played>> {
-    let frames = Arc::new(Mutex::new(Vec::new()));
     let reader = TraceReader::from_reader(Cursor::new(trace.to_vec()))?;
     let sizes = DrawableSizes::all(WINDOW.0 as u32, WINDOW.1 as u32);
+    let (played, report) = play_all(reader, sizes);
+    let skipped = [&report.unsupported, &report.malformed, &report.without_context];
+    ensure!(skipped.iter().all(|calls| calls.is_empty()), "calls were not played: {skipped:?}");
+    ensure!(report.errors.is_empty(), "OpenGL errors: {:?}", report.errors);
+    ensure!(report.failure.is_none(), "{:?}", report.failure);
+    Ok(played)
+}
+
+/// Plays a recorded trace to its end. Real programs make errors; they are played as they are.
+///
+/// # Errors
+/// Where the file is no trace or is damaged.
+pub fn play_file(path: &Path) -> anyhow::Result<Vec<Played>> {
+    let named = || path.display().to_string();
+    let sizes = TraceSummary::open(path).with_context(named)?.sizes();
+    let (played, report) = play_all(TraceReader::open(path).with_context(named)?, sizes);
+    ensure!(report.failure.is_none(), "{:?}", report.failure);
+    Ok(played)
+}
+
+fn play_all(reader: TraceReader, sizes: DrawableSizes) -> (Vec<Played>, PlayReport) {
+    let frames = Arc::new(Mutex::new(Vec::new()));
     let shared = frames.clone();
     let factory = Box::new(move |_| {
         Box::new(Watcher { frames: shared.clone(), ..Watcher::default() }) as Box<dyn Backend>
@@ -73,11 +99,7 @@ pub fn play(trace: &[u8]) -> anyhow::Result<Vec<Played>> {
     let mut player = Player::new(reader, sizes, factory);
     while player.next_frame().is_some() {}
     let report = player.report();
-    let skipped = [&report.unsupported, &report.malformed, &report.without_context];
-    ensure!(skipped.iter().all(|calls| calls.is_empty()), "calls were not played: {skipped:?}");
-    ensure!(report.errors.is_empty(), "OpenGL errors: {:?}", report.errors);
-    ensure!(report.failure.is_none(), "{:?}", report.failure);
     drop(player);
     let played = std::mem::take(&mut *frames.lock());
-    Ok(played)
+    (played, report)
 }

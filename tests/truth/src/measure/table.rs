@@ -6,7 +6,8 @@ use std::io::{self, Write};
 use super::Report;
 
 /// Writes a line a style and class: how many settled triangles there are, precision and recall in percent, the recall of
-/// young ones; and a line a style on camera, lights and identities.
+/// young ones; a line a style on camera, lights and identities (switches of chances); and one on where the static world is on
+/// screen and on what is traced though it should not be.
 ///
 /// # Errors
 /// Those of `out`.
@@ -56,6 +57,29 @@ pub fn write_table(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
             switches,
         )?;
     }
+    writeln!(out)?;
+    writeln!(
+        out,
+        "{:<18} {:>7} {:>9} {:>9} {:>9}   traced: {:>9} {:>11} {:>7} {:>10}",
+        "style", "stable", "of frames", "pixels", "worst", "interface", "translucent", "others", "undecided"
+    )?;
+    for report in reports {
+        let stability = report.stability.unwrap_or_default();
+        let traced = report.traced;
+        writeln!(
+            out,
+            "{:<18} {:>7} {:>9} {:>9.3} {:>9.3}           {:>9} {:>11} {:>7} {:>10}",
+            report.style,
+            percent((stability.frames > 0).then_some(stability.stable)),
+            stability.frames,
+            stability.median,
+            stability.worst,
+            traced.interface,
+            traced.translucent,
+            traced.others,
+            traced.undecided,
+        )?;
+    }
     Ok(())
 }
 
@@ -67,4 +91,19 @@ fn mostly(taken_for: &BTreeMap<&'static str, u64>) -> &'static str {
 /// A share in percent.
 fn percent(share: Option<f64>) -> String {
     share.map_or("-".into(), |share| format!("{:.1}", 100.0 * share))
+}
+
+/// Writes for what triangles were taken where for something else, and why.
+///
+/// # Errors
+/// Where `out` cannot be written.
+pub fn write_wrong(out: &mut impl Write, reports: &[Report]) -> io::Result<()> {
+    for report in reports {
+        for score in &report.classes {
+            for (taken_for, count) in &score.because {
+                writeln!(out, "{:<18} {:<11} {count:>9} taken for {taken_for}", report.style, score.class)?;
+            }
+        }
+    }
+    Ok(())
 }

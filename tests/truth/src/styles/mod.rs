@@ -2,23 +2,34 @@
 
 mod batches;
 mod billboards;
+mod buffers;
 mod chase;
 mod cpu_animation;
+mod cuts;
+mod doors;
 mod gl_lights;
+mod glow_layers;
 mod hud_icons;
+mod left_handed;
 mod level_change;
 mod lightmap_passes;
+mod looking_back;
+mod many_objects;
 mod mirror;
 mod multitexture;
 mod one_matrix;
+mod other_views;
 mod own_matrices;
 mod planar_shadows;
 mod resting_camera;
 mod scrolling;
+mod shadow_volumes;
 mod sky_box;
 mod sky_dome;
+mod split_screen;
 mod view_in_projection;
 mod weapon;
+mod zoom;
 
 use std::io;
 
@@ -169,6 +180,78 @@ pub const STYLES: &[Entry] = &[
         has: "a camera that rests, moves and rests again; a world that is scaled",
         frames: 60,
         begin: |gl| Box::new(resting_camera::RestingCamera::begin(gl)),
+    },
+    Entry {
+        name: "cuts",
+        has: "a camera that cuts about one world; crates that are elsewhere at once",
+        frames: 48,
+        begin: |gl| Box::new(cuts::Cuts::begin(gl)),
+    },
+    Entry {
+        name: "shadow_volumes",
+        has: "shadow volumes in the stencil; marks with an offset of depth",
+        frames: 48,
+        begin: |gl| Box::new(shadow_volumes::ShadowVolumes::begin(gl)),
+    },
+    Entry {
+        name: "glow_layers",
+        has: "detail on the second unit, an added glow, a sheen by sphere mapping",
+        frames: 48,
+        begin: |gl| Box::new(glow_layers::GlowLayers::begin(gl)),
+    },
+    Entry {
+        name: "other_views",
+        has: "the faces of a cube map before the main view, a rear view after it",
+        frames: 48,
+        begin: |gl| Box::new(other_views::OtherViews::begin(gl)),
+    },
+    Entry {
+        name: "buffers",
+        has: "interleaved vertices in one buffer of which a part is filled anew; indices",
+        frames: 48,
+        begin: |gl| Box::new(buffers::Buffers::begin(gl)),
+    },
+    Entry {
+        name: "left_handed",
+        has: "w = +z, an infinite far plane, a frustum that is off centre",
+        frames: 48,
+        begin: |gl| Box::new(left_handed::LeftHanded::begin(gl, false)),
+    },
+    Entry {
+        name: "mirrored_view",
+        has: "the same, and a reflection in the view",
+        frames: 48,
+        begin: |gl| Box::new(left_handed::LeftHanded::begin(gl, true)),
+    },
+    Entry {
+        name: "zoom",
+        has: "a field of view that changes with each frame",
+        frames: 48,
+        begin: |gl| Box::new(zoom::Zoom::begin(gl)),
+    },
+    Entry {
+        name: "doors",
+        has: "doors, a lift that rests often, a bridge that is destroyed",
+        frames: 48,
+        begin: |gl| Box::new(doors::Doors::begin(gl)),
+    },
+    Entry {
+        name: "many_objects",
+        has: "two thousand matrices, one in ten moves",
+        frames: 48,
+        begin: |gl| Box::new(many_objects::ManyObjects::begin(gl)),
+    },
+    Entry {
+        name: "looking_back",
+        has: "a camera that turns round on the spot and back",
+        frames: 48,
+        begin: |gl| Box::new(looking_back::LookingBack::begin(gl)),
+    },
+    Entry {
+        name: "split_screen",
+        has: "two players, each with half of the window",
+        frames: 48,
+        begin: |gl| Box::new(split_screen::SplitScreen::begin(gl)),
     },
 ];
 

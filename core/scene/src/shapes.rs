@@ -1,0 +1,492 @@
+//! Draws cut into what belongs together, before anything is known of matrices.
+//!
+//! A program batches as it likes: what stands still and what it animates may be in one draw, and what is in a batch
+//! changes with what the camera sees. Each triangle is known by its position key from the first frame in which it
+//! was drawn, and belongs to the same object ever after. Draws are cut where the object changes.
+
+use std::sync::Arc;
+
+use afterglow_gl::frame::{Draw, Frame, Operation, Topology, VertexSource};
+use glam::Vec3;
+use hashbrown::{HashMap, HashSet};
+
+use crate::content::{Content, Contents, Found};
+use crate::formers::{Former, Formers, SPRITE};
+use crate::images::Images;
+use crate::objects::Objects;
+
+/// Pieces that a draw is cut into, at most.
+const MOST_PIECES: usize = 64;
+/// Parts of a draw, at most, that are things of their own.
+const MOST_THINGS: usize = 16;
+/// Triangles that are known, at most.
+const MOST_TRIANGLES: usize = 1 << 21;
+/// Frames after which a triangle that was drawn in one frame only is forgotten.
+const FORGOTTEN: u32 = 300;
+
+/// Frames for which the plan of a draw that is not drawn is kept.
+const PLANNED: u32 = 16;
+
+/// What a piece belongs to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Known {
+    /// The object that its triangles belong to.
+    Object(u32),
+    /// A range that outlives the frame: its objects are found by its content.
+    Mesh,
+    /// Animated: its object, and where its corners were in the frame before (none if it was not there).
+    Animated(u32, Vec<Vec3>),
+}
+
+/// A draw, or what it was cut into.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// What its triangles are.
+    pub content: Arc<Content>,
+    /// Content of the texture in its first unit, 0 without one.
+    pub texture: u64,
+    /// What it belongs to.
+    pub known: Known,
+}
+
+/// A triangle's object, and the frames in which it was seen first and last.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    object: u32,
+    first: u32,
+    last: u32,
+}
+
+/// Triangles of a draw that belong together.
+#[derive(Debug, Clone, PartialEq)]
+struct Stretch {
+    first: u32,
+    count: u32,
+    known: Known,
+}
+
+/// What is known of triangles.
+#[derive(Debug, Default)]
+pub struct Shapes {
+    contents: Contents,
+    triangles: HashMap<u64, Seen>,
+    formers: Formers,
+    /// Stretches of draws all of whose triangles are known, by the hash of their bytes.
+    plans: HashMap<u64, (Vec<Stretch>, u32)>,
+    /// What sprites of a texture belong to.
+    sprites: HashMap<u64, u32>,
+    /// Objects that are animated in this frame.
+    animated: HashSet<u32>,
+    frame: u32,
+}
+
+/// A draw that is looked at.
+struct Surveyed {
+    number: usize,
+    operation: usize,
+    found: Found,
+    texture: u64,
+    /// There is a plan for it.
+    is_planned: bool,
+    /// The object of each triangle; none of those that are animated. Empty where a plan is known.
+    marks: Vec<Option<u32>>,
+    /// The object that most triangles belonged to when they were seen.
+    known: Option<u32>,
+}
+
+/// Triangles of a draw some of which nobody has seen before.
+struct Fresh {
+    first: u32,
+    count: u32,
+    content: Option<Arc<Content>>,
+    /// What they were in the frame before.
+    former: Option<Former>,
+}
+
+/// How a draw is cut at first: parts, of which some are fresh.
+type Parts = Vec<(u32, u32, Option<Fresh>)>;
+
+impl Shapes {
+    /// Cuts the draws of a frame that `is_wanted`. Returns a piece for each draw that the frame has then, in order.
+    pub fn cut(
+        &mut self,
+        frame: &mut Frame,
+        images: &Images,
+        objects: &mut Objects,
+        is_wanted: impl Fn(&Frame, &Draw) -> bool,
+    ) -> Vec<Option<Piece>> {
+        self.next_frame();
+        let surveyed = self.survey(frame, images, objects, is_wanted);
+        let parts = self.parts(frame, &surveyed, objects);
+        let mut pieces: Vec<Option<Piece>> = Vec::with_capacity(surveyed.len());
+        let mut cuts: Vec<(usize, Vec<(u32, u32)>)> = Vec::new();
+        let mut draws = 0;
+        for (surveyed, parts) in surveyed.into_iter().zip(parts) {
+            pieces.resize_with(pieces.len() + surveyed.number - draws, || None);
+            draws = surveyed.number + 1;
+            let Some(Operation::Draw(draw)) = frame.operations.get(surveyed.operation) else { continue };
+            let is_known = parts.is_empty();
+            let stretches = self.stretches(frame, draw, &surveyed, parts, objects);
+            if let [whole] = stretches.as_slice() {
+                if let (Known::Object(object), true) = (&whole.known, is_known) {
+                    self.formers.note_known(&surveyed.found.content, surveyed.texture, *object, self.frame);
+                }
+                pieces.push(Some(Piece {
+                    content: surveyed.found.content,
+                    texture: surveyed.texture,
+                    known: whole.known.clone(),
+                }));
+                continue;
+            }
+            cuts.push((surveyed.operation, stretches.iter().map(|s| (s.first, s.count)).collect()));
+            for stretch in stretches {
+                let content = Content::of(frame, draw, stretch.first, stretch.count).map(Arc::new);
+                let piece = |content| Piece { content, texture: surveyed.texture, known: stretch.known };
+                pieces.push(content.map(piece));
+            }
+        }
+        let rest = frame.draws().count().saturating_sub(draws);
+        pieces.resize_with(pieces.len() + rest, || None);
+        apply(frame, &cuts);
+        pieces
+    }
+
+    /// Forgets everything: the world is another.
+    pub fn clear(&mut self) {
+        self.triangles.clear();
+        self.plans.clear();
+        self.sprites.clear();
+        self.formers.clear();
+    }
+
+    fn next_frame(&mut self) {
+        self.frame = self.frame.wrapping_add(1);
+        self.contents.next_frame();
+        self.animated.clear();
+        self.formers.next_frame(self.frame);
+        let now = self.frame;
+        if now.is_multiple_of(PLANNED) {
+            self.plans.retain(|_, (_, used)| now.wrapping_sub(*used) < PLANNED);
+        }
+        if now.is_multiple_of(FORGOTTEN) {
+            self.triangles
+                .retain(|_, seen| seen.first != seen.last || now.wrapping_sub(seen.last) < FORGOTTEN);
+        }
+        if self.triangles.len() > MOST_TRIANGLES {
+            let mut ages: Vec<u32> =
+                self.triangles.values().map(|seen| now.wrapping_sub(seen.last)).collect();
+            let middle = ages.len() / 2;
+            let (_, &mut median, _) = ages.select_nth_unstable(middle);
+            self.triangles.retain(|_, seen| now.wrapping_sub(seen.last) < median.max(1));
+            self.plans.clear();
+        }
+    }
+
+    /// Finds the content of draws, and takes note of which triangles are drawn.
+    fn survey(
+        &mut self,
+        frame: &Frame,
+        images: &Images,
+        objects: &Objects,
+        is_wanted: impl Fn(&Frame, &Draw) -> bool,
+    ) -> Vec<Surveyed> {
+        let mut surveyed = Vec::new();
+        for (number, (operation, draw)) in frame.draws().enumerate() {
+            if draw.topology != Topology::Triangles || !is_wanted(frame, draw) {
+                continue;
+            }
+            let Some(found) = self.contents.of(frame, draw) else { continue };
+            let texture = texture_of(frame, draw, images);
+            let is_expected = self.formers.expect(&found.content, texture);
+            let is_planned = !is_expected && self.plan(found.bytes, objects);
+            // What is new may be what something animated has become: only then it matters whether it is still drawn.
+            let seen = if is_planned && found.age > 2 { Vec::new() } else { self.see(&found.content) };
+            let known = majority(&seen);
+            // Those of something animated may come again as they were, but are never known for that.
+            let is_known =
+                |object: &u32| !is_expected && objects.get(*object).is_some_and(|object| !object.is_animated);
+            let marks = seen.into_iter().map(|mark| mark.filter(is_known)).collect();
+            surveyed.push(Surveyed { number, operation, found, texture, is_planned, marks, known });
+        }
+        surveyed
+    }
+
+    /// Whether there is a plan for a draw of these bytes, and nothing in it is animated now.
+    fn plan(&mut self, bytes: u64, objects: &Objects) -> bool {
+        let now = self.frame;
+        let is_animated = |stretch: &Stretch| match stretch.known {
+            Known::Object(object) => objects.get(object).is_none_or(|object| object.is_animated),
+            _ => true,
+        };
+        let Some((plan, used)) = self.plans.get_mut(&bytes) else { return false };
+        *used = now;
+        !plan.iter().any(is_animated)
+    }
+
+    /// The object that each triangle belonged to so far. They are drawn now.
+    fn see(&mut self, content: &Content) -> Vec<Option<u32>> {
+        let now = self.frame;
+        let see = |key: &u64| {
+            let seen = self.triangles.get_mut(key)?;
+            seen.last = now;
+            Some(seen.object)
+        };
+        content.keys.iter().map(see).collect()
+    }
+
+    /// Cuts all draws that have fresh triangles, and finds what these were before.
+    fn parts(&mut self, frame: &Frame, surveyed: &[Surveyed], objects: &Objects) -> Vec<Parts> {
+        let is_planned =
+            |s: &Surveyed| self.plans.contains_key(&s.found.bytes) || s.marks.iter().all(Option::is_some);
+        let mut parts: Vec<Parts> = Vec::with_capacity(surveyed.len());
+        for surveyed in surveyed {
+            let draw = match frame.operations.get(surveyed.operation) {
+                Some(Operation::Draw(draw)) if !is_planned(surveyed) => draw,
+                _ => {
+                    parts.push(Parts::new());
+                    continue;
+                }
+            };
+            let whole = &surveyed.found.content;
+            let fresh = |&(first, count): &(u32, u32)| {
+                let marks = &surveyed.marks[first as usize..(first + count) as usize];
+                marks.iter().any(Option::is_none).then(|| Fresh {
+                    first,
+                    count,
+                    content: match count == whole.triangles {
+                        true => Some(whole.clone()),
+                        false => Content::of(frame, draw, first, count).map(Arc::new),
+                    },
+                    former: None,
+                })
+            };
+            let segments = segments(frame, draw, &surveyed.marks);
+            parts.push(segments.iter().map(|segment| (segment.0, segment.1, fresh(segment))).collect());
+        }
+        let fresh = parts.iter_mut().zip(surveyed).flat_map(|(parts, surveyed)| {
+            let fresh = parts.iter_mut().filter_map(|(_, _, fresh)| fresh.as_mut());
+            fresh.filter_map(|fresh| Some((fresh.content.as_deref()?, surveyed.texture, &mut fresh.former)))
+        });
+        let (triangles, now) = (&self.triangles, self.frame);
+        self.formers.take(fresh.collect(), |key| {
+            let drawn = triangles.get(&key).filter(|seen| seen.last == now);
+            drawn.is_some_and(|seen| objects.get(seen.object).is_none_or(|object| !object.is_animated))
+        });
+        parts
+    }
+
+    fn stretches(
+        &mut self,
+        frame: &Frame,
+        draw: &Draw,
+        surveyed: &Surveyed,
+        parts: Parts,
+        objects: &mut Objects,
+    ) -> Vec<Stretch> {
+        let (content, marks) = (&surveyed.found.content, &surveyed.marks);
+        if content.keys.is_empty() {
+            return vec![Stretch { first: 0, count: content.triangles, known: Known::Mesh }];
+        }
+        if let Some((plan, _)) = self.plans.get(&surveyed.found.bytes).filter(|_| surveyed.is_planned) {
+            return plan.clone();
+        }
+        let mut stretches = Vec::new();
+        if parts.is_empty() {
+            push_known(&mut stretches, 0, marks);
+            merge(&mut stretches, content.triangles);
+            self.plans.insert(surveyed.found.bytes, (stretches.clone(), self.frame));
+            return stretches;
+        }
+        let mut home = majority(marks);
+        // A few large parts are things; many are how a program sends its world.
+        let are_things = parts.len() <= MOST_THINGS;
+        for (first, count, fresh) in parts {
+            match fresh {
+                Some(fresh) => {
+                    let own = are_things && count > SPRITE;
+                    let known = self.fresh(frame, draw, surveyed, fresh, objects, &mut home, own);
+                    push(&mut stretches, first, count, known);
+                }
+                None => push_known(&mut stretches, first, &marks[first as usize..(first + count) as usize]),
+            }
+        }
+        merge(&mut stretches, content.triangles);
+        stretches
+    }
+
+    /// What fresh triangles belong to: what they were before if they moved; else they are a thing of their own, or belong to
+    /// the object of those around them.
+    #[expect(clippy::too_many_arguments, reason = "one step of `stretches`, apart to be read")]
+    fn fresh(
+        &mut self,
+        frame: &Frame,
+        draw: &Draw,
+        surveyed: &Surveyed,
+        fresh: Fresh,
+        objects: &mut Objects,
+        home: &mut Option<u32>,
+        is_own: bool,
+    ) -> Known {
+        let Fresh { first, count, content, former } = fresh;
+        let (texture, now) = (surveyed.texture, self.frame);
+        let before = former.as_ref().and_then(|former| former.object);
+        let before = before.or(surveyed.known.filter(|_| count == surveyed.found.content.triangles));
+        let whole = &surveyed.found.content;
+        if let Some(part) = &content {
+            let cut = part_of(draw, first, count);
+            let counts = self.formers.note((frame, &cut), part, texture, former.as_ref(), now);
+            let has_settled = former.as_ref().is_some_and(|former| former.has_settled(part));
+            let is_sprite = count <= SPRITE && self.sprites.contains_key(&texture);
+            let may_move = former.as_ref().is_none_or(|former| !former.rests_at(part));
+            let is_animated = (counts || self.formers.expect(part, texture)) && !has_settled;
+            if is_animated || (is_sprite && may_move) {
+                // Several may be in a pose that one of them was in.
+                let before = before.filter(|object| !self.animated.contains(object));
+                let mut known = || before.unwrap_or_else(|| objects.add(part, texture));
+                let object = match count {
+                    0..=SPRITE => *self.sprites.entry(texture).or_insert_with(known),
+                    _ => known(),
+                };
+                self.formers.assign(part, texture, object);
+                objects.set_animated(object, true);
+                self.animated.insert(object);
+                return Known::Animated(object, former.map(|former| former.corners).unwrap_or_default());
+            }
+        }
+        if let Some(object) = before {
+            objects.set_animated(object, false);
+        }
+        let object = match content.as_ref().filter(|_| is_own) {
+            _ if before.is_some() => before.unwrap_or(0),
+            Some(part) => objects.add(part, texture),
+            None => *home.get_or_insert_with(|| objects.add(whole, texture)),
+        };
+        if let Some(part) = &content {
+            self.formers.assign(part, texture, object);
+        }
+        let seen = Seen { object, first: now, last: now };
+        for &key in &whole.keys[first as usize..(first + count) as usize] {
+            self.triangles.entry(key).or_insert(seen);
+        }
+        Known::Object(object)
+    }
+}
+
+/// The first unit's texture.
+fn texture_of(frame: &Frame, draw: &Draw, images: &Images) -> u64 {
+    let bindings = frame.bindings.get(draw.bindings as usize);
+    let bound = bindings.into_iter().flatten().flatten().next();
+    bound.and_then(|binding| images.get(binding.image)).map_or(0, |image| image.content())
+}
+
+/// The object that most known triangles belong to; of equals the first.
+fn majority(marks: &[Option<u32>]) -> Option<u32> {
+    let mut votes: Vec<(u32, usize)> = Vec::new();
+    for object in marks.iter().flatten() {
+        match votes.iter().position(|(known, _)| known == object) {
+            Some(at) => votes[at].1 += 1,
+            None if votes.len() < MOST_PIECES => votes.push((*object, 1)),
+            None => {}
+        }
+    }
+    let most = votes.iter().map(|(_, count)| *count).max()?;
+    votes.into_iter().find(|(_, count)| *count == most).map(|(object, _)| object)
+}
+
+/// Cuts a draw at the program's own seams and where triangles are new on one side only.
+fn segments(frame: &Frame, draw: &Draw, marks: &[Option<u32>]) -> Vec<(u32, u32)> {
+    let mut ends: Vec<u32> = Vec::new();
+    if let VertexSource::Arena { first_index, .. } = draw.source {
+        let from = frame.seams.partition_point(|&seam| seam <= first_index);
+        let within = frame.seams[from..].iter().take_while(|&&seam| seam < first_index + draw.index_count);
+        ends.extend(within.map(|seam| (seam - first_index) / 3));
+    }
+    let changes = marks.windows(2).enumerate().filter(|(_, pair)| pair[0].is_none() != pair[1].is_none());
+    ends.extend(changes.map(|(i, _)| i as u32 + 1));
+    ends.push(marks.len() as u32);
+    ends.sort_unstable();
+    ends.dedup();
+    let mut start = 0;
+    ends.into_iter()
+        .filter(|&end| end > 0)
+        .map(|end| (std::mem::replace(&mut start, end), end))
+        .map(|(s, e)| (s, e - s))
+        .collect()
+}
+
+/// Adds triangles all of which are known.
+fn push_known(stretches: &mut Vec<Stretch>, first: u32, marks: &[Option<u32>]) {
+    for (triangle, mark) in (first..).zip(marks) {
+        push(stretches, triangle, 1, Known::Object(mark.unwrap_or(0)));
+    }
+}
+
+/// Adds a stretch, to the one before where both belong to the same.
+fn push(stretches: &mut Vec<Stretch>, first: u32, count: u32, known: Known) {
+    if let Some(last) = stretches.last_mut() {
+        match (&mut last.known, &known) {
+            (Known::Object(a), Known::Object(b)) if a == b => {
+                last.count += count;
+                return;
+            }
+            (Known::Animated(a, before), Known::Animated(b, corners)) if a == b => {
+                let complete = before.len() as u32 == 3 * last.count && corners.len() as u32 == 3 * count;
+                if complete {
+                    before.extend_from_slice(corners)
+                } else {
+                    before.clear()
+                }
+                last.count += count;
+                return;
+            }
+            _ => {}
+        }
+    }
+    stretches.push(Stretch { first, count, known });
+}
+
+/// Of too many stretches one, which belongs to what most triangles belong to.
+fn merge(stretches: &mut Vec<Stretch>, triangles: u32) {
+    if stretches.len() > MOST_PIECES {
+        let largest = stretches.iter().enumerate().max_by_key(|(i, s)| (s.count, std::cmp::Reverse(*i)));
+        if let Some((index, _)) = largest {
+            let known = match stretches.swap_remove(index).known {
+                Known::Animated(object, _) => Known::Animated(object, Vec::new()),
+                other => other,
+            };
+            *stretches = vec![Stretch { first: 0, count: triangles, known }];
+        }
+    }
+}
+
+/// Part of a draw's triangles as a draw.
+fn part_of(draw: &Draw, first: u32, count: u32) -> Draw {
+    let source = match draw.source {
+        VertexSource::Arena { first_word, vertices, first_index } => {
+            VertexSource::Arena { first_word, vertices, first_index: first_index + 3 * first }
+        }
+        VertexSource::Retained { range, first_index } => {
+            VertexSource::Retained { range, first_index: first_index + 3 * first }
+        }
+    };
+    Draw { source, index_count: 3 * count, ..*draw }
+}
+
+/// Puts parts in the place of draws.
+fn apply(frame: &mut Frame, cuts: &[(usize, Vec<(u32, u32)>)]) {
+    if cuts.is_empty() {
+        return;
+    }
+    let mut cuts = cuts.iter().peekable();
+    let whole = std::mem::take(&mut frame.operations);
+    frame.operations.reserve(whole.len() + 16);
+    for (index, operation) in whole.into_iter().enumerate() {
+        match (cuts.next_if(|(cut, _)| *cut == index), &operation) {
+            (Some((_, parts)), Operation::Draw(draw)) => {
+                let parts = parts.iter().map(|&(first, count)| Operation::Draw(part_of(draw, first, count)));
+                frame.operations.extend(parts);
+            }
+            _ => frame.operations.push(operation),
+        }
+    }
+}

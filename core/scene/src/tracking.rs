@@ -1,0 +1,394 @@
+//! Objects followed from frame to frame, and the camera with them.
+//!
+//! One rigid transform of the world is free: it is chosen with the first frame, and every object's place is relative to
+//! it. An object that stands still keeps the place at which it was seen first, so nothing drifts.
+
+use glam::{DMat4, DVec3, Vec3};
+use hashbrown::HashMap;
+
+use crate::consensus::{self, Prior, TOLERANCE, Witness};
+use crate::draws::{DrawFacts, TransformFacts};
+use crate::matrix;
+use crate::objects::{Motion, Object, Objects, Step};
+use crate::shapes::{Known, Piece};
+use crate::world::World;
+
+/// Frames in which the matrix that most is drawn under must have been the view to be taken for it.
+const BASE_TRUSTED: u32 = 3;
+/// How much more than what is known what is new must reach for the world to be another.
+const ANOTHER: f64 = 4.0;
+/// How far an object goes in a frame, in its own extents: hardly, as anything may, and as what moves may.
+const AT: f64 = 0.05;
+const NEAR: f64 = 1.0;
+const FAR: f64 = 8.0;
+/// Objects of the same content that a draw is compared with.
+const COMPARED: usize = 32;
+
+/// What is known of a draw that was followed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    /// The object's name.
+    pub object: u64,
+    /// Object to world space.
+    pub model: DMat4,
+    /// The same in the frame before, if it was there.
+    pub previous: Option<DMat4>,
+    /// What its motion says.
+    pub motion: Motion,
+    /// Its vertices move; where its corners were.
+    pub animated: Option<Vec<Vec3>>,
+}
+
+/// A draw that is followed.
+struct Claim<'a> {
+    draw: usize,
+    piece: &'a Piece,
+    eye: DMat4,
+    /// It may tell where the camera is.
+    is_witness: bool,
+    object: Option<u32>,
+}
+
+/// Follows objects and the camera.
+#[derive(Debug, Default)]
+pub struct Tracker {
+    /// All objects.
+    pub objects: Objects,
+    view: Option<DMat4>,
+    /// The camera's step of the frame before, in eye space.
+    velocity: DMat4,
+    /// Frames in which what most is drawn under was the view, and in which it was not.
+    base: (u32, u32),
+    frame: u32,
+    /// Counts worlds.
+    pub epoch: u64,
+}
+
+impl Tracker {
+    /// Follows the draws of a frame, `pieces` of which are known: finds the world's view, and what each object does.
+    pub fn follow(
+        &mut self,
+        draws: &[DrawFacts],
+        pieces: &[Option<Piece>],
+        transforms: &[TransformFacts],
+        world: &mut World,
+    ) -> Vec<Option<Track>> {
+        self.frame = self.frame.wrapping_add(1).max(1);
+        let mut claims: Vec<Claim> = claims(draws, pieces, transforms, world);
+        let expected = self.view.map_or(world.base, |view| self.velocity * view);
+        self.pair(&mut claims, &Sight::new(expected, world, true));
+        let before = self.view;
+        let view = self.find_view(&claims, world);
+        self.pair(&mut claims, &Sight::new(view, world, false));
+        for claim in &mut claims {
+            let piece = claim.piece;
+            claim.object.get_or_insert_with(|| self.objects.add(&piece.content, piece.texture));
+        }
+        self.velocity = before.map_or(DMat4::IDENTITY, |before| view * matrix::rigid_inverse(before));
+        self.view = Some(view);
+        world.view = view;
+        let step = CameraStep::new(before.unwrap_or(view), view, world.focal);
+        let mut tracks: Vec<Option<Track>> = Vec::new();
+        tracks.resize_with(draws.len(), || None);
+        for claim in &claims {
+            tracks[claim.draw] = self.step(claim, &step);
+        }
+        tracks
+    }
+
+    /// Whether a piece is known to stand still in the world, wherever it is drawn.
+    pub fn stands_still(&self, piece: &Piece) -> bool {
+        let stands = |object: &u32| {
+            let object = self.objects.get(*object);
+            object.is_some_and(|object| object.model.is_some() && object.motion(self.frame) == Motion::Still)
+        };
+        match &piece.known {
+            Known::Object(object) => stands(object),
+            Known::Mesh => self.objects.of_content(&piece.content).iter().any(stands),
+            Known::Animated(..) => false,
+        }
+    }
+
+    /// Pairs draws with objects, as seen under a view: first those that are where they must be, then the others.
+    fn pair(&self, claims: &mut [Claim], sight: &Sight) {
+        let mut taken = Taken::default();
+        let mut cursors: HashMap<(u64, u32), usize> = HashMap::new();
+        for is_last in [false, true] {
+            for claim in claims.iter_mut().filter(|claim| !is_last || claim.object.is_none()) {
+                let content = &claim.piece.content;
+                let cursor = cursors.entry((content.positions, content.triangles)).or_default();
+                claim.object = match claim.piece.known {
+                    Known::Animated(object, _) => Some(object),
+                    Known::Object(object) => {
+                        self.nearest(claim, Some(object), sight, &taken, cursor, is_last)
+                    }
+                    Known::Mesh => self.nearest(claim, None, sight, &taken, cursor, is_last),
+                };
+                taken.add(claim.object, claim.eye);
+            }
+        }
+    }
+
+    /// Of the objects that a piece may be, the nearest to a place that is free. Programs draw what is alike in the same
+    /// order each time: the search begins after the one that was found last.
+    fn nearest(
+        &self,
+        claim: &Claim,
+        own: Option<u32>,
+        sight: &Sight,
+        taken: &Taken,
+        cursor: &mut usize,
+        is_last: bool,
+    ) -> Option<u32> {
+        let content = &claim.piece.content;
+        let alike = self.objects.of_content(content);
+        let place = sight.world_from_eye * claim.eye;
+        let (centre, extent) = (content.centre.as_dvec3(), f64::from(content.extent) * scale_of(place));
+        let centre_now = place.transform_point3(centre);
+        let (start, count) = (*cursor, alike.len());
+        let in_order = (0..count.min(COMPARED)).map(|step| (start + step) % count);
+        let in_order = in_order.map(|at| (at + 1, alike[at]));
+        let near = (count > COMPARED).then(|| self.objects.near(content, place)).into_iter().flatten();
+        let first = own.into_iter().chain(near).map(|object| (start, object));
+        let mut best: Option<(f64, u32)> = None;
+        for (next, object) in first.chain(in_order) {
+            if taken.has(object, claim.eye) {
+                continue;
+            }
+            let Some(known) = self.objects.get(object) else { continue };
+            let away =
+                self.expected(known, centre).map_or(f64::MAX, |expected| expected.distance(centre_now));
+            if away <= AT * extent {
+                *cursor = next;
+                return Some(object);
+            }
+            if best.is_none_or(|(least, _)| away < least) {
+                best = Some((away, object));
+            }
+        }
+        let (away, object) = best.filter(|_| is_last)?;
+        (sight.is_rough || self.may_be(object, away, extent, centre, sight)).then_some(object)
+    }
+
+    /// Where a point of an object is if it goes on as before, world space.
+    fn expected(&self, object: &Object, point: DVec3) -> Option<DVec3> {
+        let now = object.model?.transform_point3(point);
+        let before = object.before.filter(|_| object.seen == self.frame.wrapping_sub(1));
+        Some(before.map_or(now, |before| 2.0 * now - before.transform_point3(point)))
+    }
+
+    /// Whether an object may have gone so far. What stands still does not go, unless it is missed where it was.
+    fn may_be(&self, object: u32, away: f64, extent: f64, centre: DVec3, sight: &Sight) -> bool {
+        let Some(object) = self.objects.get(object) else { return false };
+        let Some(model) = object.model else { return true };
+        let was_there = object.seen == self.frame.wrapping_sub(1);
+        let moves = object.motion(self.frame) != Motion::Still;
+        away <= NEAR * extent
+            || (moves && was_there && away <= FAR * extent)
+            || (was_there && sight.shows(model.transform_point3(centre)))
+    }
+
+    /// The view of this frame.
+    fn find_view(&mut self, claims: &[Claim], world: &World) -> DMat4 {
+        let Some(before) = self.view else { return world.base };
+        let base_is_view = self.base.0 >= BASE_TRUSTED && self.base.0 > 4 * self.base.1;
+        let witnesses = self.witnesses(claims, base_is_view);
+        let prior = Prior { view: before, base: base_is_view.then_some(world.base), focal: world.focal };
+        let found = consensus::find(&witnesses, &prior);
+        if self.is_another_world(claims, found) {
+            self.begin_world();
+            return found.filter(|_| base_is_view).unwrap_or(world.base);
+        }
+        let view = found.unwrap_or(before);
+        let agrees = consensus::error(&world.samples, view, world.base, world.focal) <= TOLERANCE;
+        if agrees {
+            self.base.0 += 1
+        } else {
+            self.base.1 += 1
+        }
+        view
+    }
+
+    fn witnesses<'a>(&self, claims: &'a [Claim<'a>], base_is_view: bool) -> Vec<Witness<'a>> {
+        let witness = |claim: &'a Claim<'a>| {
+            let object = claim.object.and_then(|object| self.objects.get(object));
+            // Where the world has been sent in world coordinates, new things are as well.
+            let known = object.and_then(|object| object.model);
+            let model = known.or(base_is_view.then_some(DMat4::IDENTITY))?;
+            Some(Witness {
+                samples: &claim.piece.content.samples,
+                eye: claim.eye,
+                model,
+                mesh: claim.piece.content.positions,
+                is_trusted: object.is_some_and(Object::is_trusted),
+            })
+        };
+        let told = claims.iter().filter(|claim| claim.is_witness && !is_animated(claim));
+        told.filter_map(witness).collect()
+    }
+
+    /// Whether nothing that is known of the world is in sight, and much that is new.
+    fn is_another_world(&self, claims: &[Claim], found: Option<DMat4>) -> bool {
+        let (mut known, mut new, mut trusted) = (0.0, 0.0, false);
+        for claim in claims.iter().filter(|claim| claim.is_witness && !is_animated(claim)) {
+            let extent = f64::from(claim.piece.content.extent) * scale_of(claim.eye);
+            let object = claim.object.and_then(|object| self.objects.get(object));
+            match object.filter(|object| object.model.is_some()) {
+                Some(object) => {
+                    known += extent;
+                    trusted |= object.is_trusted();
+                }
+                None => new += extent,
+            }
+        }
+        !trusted && new > ANOTHER * known && (found.is_none() || known == 0.0 || self.has_trusted())
+    }
+
+    fn has_trusted(&self) -> bool {
+        self.objects.all().any(Object::is_trusted)
+    }
+
+    fn begin_world(&mut self) {
+        self.objects.forget_places();
+        self.epoch += 1;
+    }
+
+    /// Takes note of what an object did.
+    fn step(&mut self, claim: &Claim, camera: &CameraStep) -> Option<Track> {
+        let frame = self.frame;
+        let number = claim.object?;
+        let object = self.objects.get_mut(number)?;
+        let now = snapped(camera.world_from_eye * claim.eye);
+        let former = object.model.filter(|_| object.seen != 0);
+        let was_there = object.seen == frame.wrapping_sub(1);
+        let again = object.seen == frame;
+        if let (Some(model), false) = (former, again) {
+            let step = camera.step_of(&claim.piece.content.samples, claim.eye, model, object.eye, was_there);
+            let far = f64::from(claim.piece.content.extent) * scale_of(now);
+            let centre = claim.piece.content.centre.as_dvec3();
+            let went = model.transform_point3(centre).distance(now.transform_point3(centre));
+            object.step(step, camera.moves, was_there && went > NEAR * far, frame);
+            if step != Step::Stood {
+                self.objects.put(number, now);
+            }
+        } else if former.is_none() {
+            self.objects.put(number, now);
+        }
+        let object = self.objects.get_mut(number)?;
+        let model = object.model?;
+        if !again {
+            object.before = former.filter(|_| was_there);
+        }
+        (object.eye, object.seen) = (claim.eye, frame);
+        let animated = match &claim.piece.known {
+            Known::Animated(_, corners) => Some(corners.clone()),
+            _ => None,
+        };
+        let previous = object.before;
+        Some(Track { object: object.id, model, previous, motion: object.motion(frame), animated })
+    }
+}
+
+fn is_animated(claim: &Claim) -> bool {
+    matches!(claim.piece.known, Known::Animated(..))
+}
+
+/// The draws that may be objects of the world.
+fn claims<'a>(
+    draws: &[DrawFacts],
+    pieces: &'a [Option<Piece>],
+    transforms: &[TransformFacts],
+    world: &World,
+) -> Vec<Claim<'a>> {
+    let claim = |(draw, (facts, piece)): (usize, (&DrawFacts, &'a Option<Piece>))| {
+        let piece = piece.as_ref().filter(|_| world.may_hold(facts, transforms))?;
+        let eye = transforms[facts.transform].eye;
+        Some(Claim { draw, piece, eye, is_witness: world.is_on_stage(facts, transforms), object: None })
+    };
+    draws.iter().zip(pieces).enumerate().filter_map(claim).collect()
+}
+
+/// About how much a matrix scales.
+fn scale_of(matrix: DMat4) -> f64 {
+    matrix.x_axis.truncate().length()
+}
+
+/// The identity, exactly, for what is the identity but for rounding.
+fn snapped(model: DMat4) -> DMat4 {
+    let reach = model.w_axis.truncate().length();
+    if reach < 1e-4 && model.abs_diff_eq(DMat4::IDENTITY, 2e-6) { DMat4::IDENTITY } else { model }
+}
+
+/// Objects that are taken, and the matrix under which each is seen.
+#[derive(Default)]
+struct Taken(HashMap<u32, DMat4>);
+
+impl Taken {
+    fn add(&mut self, object: Option<u32>, eye: DMat4) {
+        if let Some(object) = object {
+            self.0.entry(object).or_insert(eye);
+        }
+    }
+
+    /// Whether an object is somewhere else. Parts of one may be drawn apart, under the same matrix.
+    fn has(&self, object: u32, eye: DMat4) -> bool {
+        self.0.get(&object).is_some_and(|other| *other != eye)
+    }
+}
+
+/// What is in sight.
+struct Sight {
+    clip_from_world: DMat4,
+    world_from_eye: DMat4,
+    /// The view is only expected.
+    is_rough: bool,
+}
+
+impl Sight {
+    fn new(view: DMat4, world: &World, is_rough: bool) -> Sight {
+        let clip_from_world = world.perspective.projection * view;
+        Sight { clip_from_world, world_from_eye: matrix::rigid_inverse(view), is_rough }
+    }
+
+    fn shows(&self, point: DVec3) -> bool {
+        let clip = self.clip_from_world * point.extend(1.0);
+        clip.w > 0.0 && clip.x.abs() < clip.w && clip.y.abs() < clip.w
+    }
+}
+
+/// The camera's step from the frame before.
+struct CameraStep {
+    before: DMat4,
+    world_from_eye: DMat4,
+    view: DMat4,
+    /// How far the eye went, in world space.
+    went: DMat4,
+    focal: f64,
+    moves: bool,
+}
+
+impl CameraStep {
+    fn new(before: DMat4, view: DMat4, focal: f64) -> CameraStep {
+        let world_from_eye = matrix::rigid_inverse(view);
+        let went = world_from_eye.w_axis.truncate() - matrix::rigid_inverse(before).w_axis.truncate();
+        let moves = !consensus::turned_alike(before, view) || went.length() > 1e-7;
+        CameraStep { before, world_from_eye, view, went: DMat4::from_translation(went), focal, moves }
+    }
+
+    /// What an object did that is now at `eye`, and was at `model` in the world and at `former` as seen from the eye.
+    fn step_of(&self, samples: &[Vec3], eye: DMat4, model: DMat4, former: DMat4, was_there: bool) -> Step {
+        let is_at = |expected: DMat4| consensus::error(samples, expected, eye, self.focal) <= TOLERANCE;
+        if is_at(self.view * model) {
+            Step::Stood
+        } else if was_there && is_at(former) {
+            Step::Attached
+        } else if was_there
+            && is_at(self.view * self.went * model)
+            && !is_at(self.view * matrix::rigid_inverse(self.before) * former)
+        {
+            Step::Carried
+        } else {
+            Step::Moved
+        }
+    }
+}

@@ -160,6 +160,16 @@ impl Images {
         }
     }
 
+    /// Images by their content; of several with the same content, the first that was made.
+    pub fn by_content(&self) -> HashMap<u64, ImageKey> {
+        let mut images: HashMap<u64, ImageKey> = HashMap::new();
+        for (&image, facts) in &self.facts {
+            let known = images.entry(facts.content).or_insert(image);
+            *known = image.min(*known);
+        }
+        images
+    }
+
     /// What is known of an image.
     pub fn get(&self, image: ImageKey) -> Option<&ImageFacts> {
         self.facts.get(&image)

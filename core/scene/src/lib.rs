@@ -14,6 +14,7 @@ mod hints;
 mod images;
 mod lights;
 mod matrix;
+mod memory;
 mod objects;
 mod opacity;
 mod profile;

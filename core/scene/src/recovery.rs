@@ -11,6 +11,7 @@ use crate::geometry::ContentCache;
 use crate::hints;
 use crate::images::{ImageFacts, Images};
 use crate::lights::{self, Lighting};
+use crate::memory::{Memory, MemoryCounts};
 use crate::profile::{Evidence, Overrides, Profile};
 use crate::shapes::Shapes;
 use crate::sky;
@@ -34,6 +35,7 @@ pub struct Recovery {
     up: Option<Vec3>,
     said: hints::Places,
     overrides: Overrides,
+    memory: Memory,
 }
 
 impl Recovery {
@@ -44,12 +46,31 @@ impl Recovery {
 
     /// A recovery whose findings a profile overrides.
     pub fn with_profile(profile: Option<Arc<Profile>>) -> Recovery {
-        Recovery { overrides: Overrides::new(profile), ..Recovery::default() }
+        let mut recovery = Recovery::default();
+        recovery.overrides = Overrides::new(profile);
+        recovery
+    }
+
+    /// Remembers so many bytes of the world that is not drawn, from now on; nothing of it with 0.
+    pub fn set_memory(&mut self, bytes: u64) {
+        self.memory.set_limit(bytes);
+    }
+
+    /// Keeps what is remembered in a file, for the next run of the program; what the file holds is used where the
+    /// program draws the same world again. A file that cannot be read or written counts as empty.
+    pub fn set_cache(&mut self, path: std::path::PathBuf) {
+        self.memory.set_cache(path);
+    }
+
+    /// How much of the world is remembered.
+    pub fn memory(&self) -> MemoryCounts {
+        self.memory.counts()
     }
 
     /// Takes note of a frame's texture images. For frames that are not understood; cheap.
     pub fn observe(&mut self, frame: &Frame) {
         self.images.learn(frame);
+        self.memory.observe(frame);
         self.images.forget(frame);
     }
 
@@ -63,6 +84,7 @@ impl Recovery {
         self.images.learn(frame);
         let mut scene = self.scene(frame);
         hints::apply(frame, &mut scene, &mut self.said);
+        self.memory.remember(frame, &self.images, &mut scene);
         self.images.forget(frame);
         scene
     }
@@ -125,6 +147,9 @@ impl Recovery {
             ambient,
             baked,
             cut: false,
+            epoch: self.tracker.epoch,
+            unseen: Vec::new(),
+            covered: Vec::new(),
         }
     }
 
@@ -135,6 +160,14 @@ impl Recovery {
         let axis = nearest_axis(upward);
         let kept = self.up.filter(|up| up.dot(upward) > 0.2);
         *self.up.insert(kept.unwrap_or(axis))
+    }
+}
+
+/// What is remembered is written, if it is kept in a file.
+impl Drop for Recovery {
+    fn drop(&mut self) {
+        self.memory.save(&self.images);
+        self.memory.finish();
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afterglow_records::Paint;
-use afterglow_scene::{Class, Profile};
+use afterglow_scene::{Class, MEMORY_BYTES, Profile};
 use glam::Vec3;
 
 /// What a frame becomes.
@@ -39,6 +39,8 @@ pub struct PathtraceOptions {
     pub accumulate: bool,
     /// What is known of the program. It holds from the first frame on: later changes count for new windows only.
     pub profile: Option<Arc<Profile>>,
+    /// Bytes of the static world that is remembered when it is not drawn; 0 for none of it.
+    pub memory_bytes: u64,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -55,6 +57,7 @@ impl Default for PathtraceOptions {
             filter: true,
             accumulate: true,
             profile: None,
+            memory_bytes: MEMORY_BYTES,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

@@ -406,6 +406,7 @@ impl<'a> Classifier<'a> {
             Motion::Carried | Motion::Attached => (Class::Movable, "goes with the camera"),
             Motion::Moves => (Class::Movable, "moves"),
             Motion::Still => (Class::Static, "stands still"),
+            Motion::Unknown if track.is_placed => (Class::Static, "placed as most of the world is"),
             Motion::Unknown => self.by_matrix(facts),
         }
     }

@@ -3,7 +3,7 @@
 //! One rigid transform of the world is free: it is chosen with the first frame, and every object's place is relative to
 //! it. An object that stands still keeps the place at which it was seen first, so nothing drifts.
 
-use glam::{DMat4, DVec3, Vec3};
+use glam::{DMat3, DMat4, DVec3, Vec3};
 use hashbrown::HashMap;
 
 use crate::consensus::{self, Prior, TOLERANCE, Witness};
@@ -21,6 +21,8 @@ const ANOTHER: f64 = 4.0;
 const AT: f64 = 0.05;
 const NEAR: f64 = 1.0;
 const FAR: f64 = 8.0;
+/// Objects from which on it can be said how a program sends its world.
+const PLACED: u32 = 16;
 /// Objects of the same content that a draw is compared with.
 const COMPARED: usize = 32;
 
@@ -35,6 +37,8 @@ pub struct Track {
     pub previous: Option<DMat4>,
     /// What its motion says.
     pub motion: Motion,
+    /// It has a matrix of its own, which does not turn it, as most of the standing world has.
+    pub is_placed: bool,
     /// Its vertices move; where its corners were.
     pub animated: Option<Vec<Vec3>>,
 }
@@ -59,6 +63,10 @@ pub struct Tracker {
     velocity: DMat4,
     /// Frames in which what most is drawn under was the view, and in which it was not.
     base: (u32, u32),
+    /// Objects of this frame and of the one before that have a matrix of their own which does not turn them: those that
+    /// stand still, and those that do not.
+    placed: (u32, u32),
+    placed_before: (u32, u32),
     frame: u32,
     /// Counts worlds.
     pub epoch: u64,
@@ -88,6 +96,7 @@ impl Tracker {
         self.view = Some(view);
         world.view = view;
         let step = CameraStep::new(before.unwrap_or(view), view, world.focal);
+        self.placed_before = std::mem::take(&mut self.placed);
         let mut tracks: Vec<Option<Track>> = Vec::new();
         tracks.resize_with(draws.len(), || None);
         for claim in &claims {
@@ -284,8 +293,17 @@ impl Tracker {
             Known::Animated(_, corners) => Some(corners.clone()),
             _ => None,
         };
-        let previous = object.before;
-        Some(Track { object: object.id, model, previous, motion: object.motion(frame), animated })
+        let (previous, motion) = (object.before, object.motion(frame));
+        let is_turned = !DMat3::from_mat4(model).abs_diff_eq(DMat3::IDENTITY, 1e-5);
+        match motion {
+            _ if is_turned || again => {}
+            Motion::Still => self.placed.0 += 1,
+            Motion::Unknown => {}
+            _ => self.placed.1 += 1,
+        }
+        let (still, moving) = self.placed_before;
+        let is_placed = !is_turned && still >= PLACED && still >= PLACED * moving / 2;
+        Some(Track { object: object.id, model, previous, motion, is_placed, animated })
     }
 }
 

@@ -21,6 +21,9 @@ const ANOTHER: f64 = 4.0;
 const AT: f64 = 0.05;
 const NEAR: f64 = 1.0;
 const FAR: f64 = 8.0;
+/// Pixels within which something stands still where matrices are exact, and how many times the usual error that may be.
+const STILL: f64 = 0.1;
+const NOISE: f64 = 10.0;
 /// Objects from which on it can be said how a program sends its world.
 const PLACED: u32 = 16;
 /// Objects of the same content that a draw is compared with.
@@ -95,7 +98,8 @@ impl Tracker {
         self.velocity = before.map_or(DMat4::IDENTITY, |before| view * matrix::rigid_inverse(before));
         self.view = Some(view);
         world.view = view;
-        let step = CameraStep::new(before.unwrap_or(view), view, world.focal);
+        let still = self.stillness(&claims, view, world.focal);
+        let step = CameraStep::new(before.unwrap_or(view), view, world.focal, still);
         self.placed_before = std::mem::take(&mut self.placed);
         let mut tracks: Vec<Option<Track>> = Vec::new();
         tracks.resize_with(draws.len(), || None);
@@ -216,6 +220,20 @@ impl Tracker {
             self.base.1 += 1
         }
         view
+    }
+
+    /// Pixels within which what stands still is where it should be, by how exactly that is so in this frame: a program may
+    /// reckon in large numbers.
+    fn stillness(&self, claims: &[Claim], view: DMat4, focal: f64) -> f64 {
+        let witnesses = self.witnesses(claims, false);
+        let trusted = witnesses.iter().filter(|witness| witness.is_trusted);
+        let mut errors: Vec<f64> = trusted.map(|witness| witness.error(view, focal)).collect();
+        if errors.is_empty() {
+            return TOLERANCE;
+        }
+        let middle = errors.len() / 2;
+        let (_, median, _) = errors.select_nth_unstable_by(middle, f64::total_cmp);
+        (NOISE * *median).clamp(STILL, TOLERANCE)
     }
 
     fn witnesses<'a>(&self, claims: &'a [Claim<'a>], base_is_view: bool) -> Vec<Witness<'a>> {
@@ -382,21 +400,23 @@ struct CameraStep {
     /// How far the eye went, in world space.
     went: DMat4,
     focal: f64,
+    /// Pixels within which something stands still.
+    still: f64,
     moves: bool,
 }
 
 impl CameraStep {
-    fn new(before: DMat4, view: DMat4, focal: f64) -> CameraStep {
+    fn new(before: DMat4, view: DMat4, focal: f64, still: f64) -> CameraStep {
         let world_from_eye = matrix::rigid_inverse(view);
         let went = world_from_eye.w_axis.truncate() - matrix::rigid_inverse(before).w_axis.truncate();
         let moves = !consensus::turned_alike(before, view) || went.length() > 1e-7;
-        CameraStep { before, world_from_eye, view, went: DMat4::from_translation(went), focal, moves }
+        CameraStep { before, world_from_eye, view, went: DMat4::from_translation(went), focal, still, moves }
     }
 
     /// What an object did that is now at `eye`, and was at `model` in the world and at `former` as seen from the eye.
     fn step_of(&self, samples: &[Vec3], eye: DMat4, model: DMat4, former: DMat4, was_there: bool) -> Step {
         let is_at = |expected: DMat4| consensus::error(samples, expected, eye, self.focal) <= TOLERANCE;
-        if is_at(self.view * model) {
+        if consensus::error(samples, self.view * model, eye, self.focal) <= self.still {
             Step::Stood
         } else if was_there && is_at(former) {
             Step::Attached

@@ -219,6 +219,18 @@ impl Objects {
         self.objects.iter()
     }
 
+    /// Gives the world other coordinates: every place goes through a transform.
+    pub fn transform(&mut self, by: DMat4, snap: impl Fn(DMat4) -> DMat4) {
+        self.places.clear();
+        for number in 0..self.objects.len() as u32 {
+            let object = &mut self.objects[number as usize];
+            object.before = object.before.map(|before| snap(by * before));
+            if let Some(model) = object.model.take() {
+                self.put(number, snap(by * model));
+            }
+        }
+    }
+
     /// Forgets where all objects are: the world is another. Names stay.
     pub fn forget_places(&mut self) {
         self.places.clear();

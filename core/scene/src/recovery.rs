@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use afterglow_gl::frame::{Frame, ImageKey};
+use afterglow_gl::frame::{Frame, ImageKey, Rect};
 use glam::{DMat3, Vec3};
 
 use crate::classify::classify;
@@ -33,6 +33,8 @@ pub struct Recovery {
     shapes: Shapes,
     tracker: Tracker,
     up: Option<Vec3>,
+    /// The viewport that the world was drawn to.
+    viewport: Option<Rect>,
     said: hints::Places,
     overrides: Overrides,
     memory: Memory,
@@ -95,12 +97,13 @@ impl Recovery {
         let views = Views::split(frame);
         let transforms = draws::transforms(frame);
         let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
-        let Some(mut world) = World::find(frame, &views, &draws, &transforms) else {
+        let Some(mut world) = World::find(frame, &views, &draws, &transforms, self.viewport) else {
             let mut scene = flat_scene(&draws);
             let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: None };
             self.overrides.classes(evidence, &self.images, &mut scene.verdicts);
             return scene;
         };
+        self.viewport = Some(views.views[world.place].rect);
         let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
         let mut verdicts =
             classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks, &self.tracker);

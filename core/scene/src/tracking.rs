@@ -15,6 +15,8 @@ use crate::world::World;
 
 /// Frames in which the matrix that most is drawn under must have been the view to be taken for it.
 const BASE_TRUSTED: u32 = 3;
+/// Frames for which a world is so young that it may get other coordinates.
+const YOUNG: u32 = 12;
 /// How much more than what is known what is new must reach for the world to be another.
 const ANOTHER: f64 = 4.0;
 /// How far an object goes in a frame, in its own extents: hardly, as anything may, and as what moves may.
@@ -66,6 +68,8 @@ pub struct Tracker {
     velocity: DMat4,
     /// Frames in which what most is drawn under was the view, and in which it was not.
     base: (u32, u32),
+    /// From what most is drawn under to the view, where that has been something else, and for how many frames.
+    offset: Option<(DMat4, u32)>,
     /// Objects of this frame and of the one before that have a matrix of their own which does not turn them: those that
     /// stand still, and those that do not.
     placed: (u32, u32),
@@ -277,6 +281,7 @@ impl Tracker {
 
     fn begin_world(&mut self) {
         self.objects.forget_places();
+        (self.base, self.offset) = ((0, 0), None);
         self.epoch += 1;
     }
 

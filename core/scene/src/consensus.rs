@@ -245,9 +245,9 @@ impl<const N: usize> Default for Span<N> {
 
 impl<const N: usize> Span<N> {
     fn add(&mut self, point: [f64; N]) {
-        for axis in 0..N {
-            self.least[axis] = self.least[axis].min(point[axis]);
-            self.most[axis] = self.most[axis].max(point[axis]);
+        for ((least, most), at) in self.least.iter_mut().zip(&mut self.most).zip(point) {
+            *least = least.min(at);
+            *most = most.max(at);
         }
     }
 

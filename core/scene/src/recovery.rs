@@ -14,6 +14,7 @@ use crate::lights::{self, Lighting};
 use crate::memory::{Memory, MemoryCounts};
 use crate::profile::{Evidence, Overrides, Profile};
 use crate::shapes::Shapes;
+use crate::shown::shown;
 use crate::sky;
 use crate::tracking::{Track, Tracker};
 use crate::types::{Camera, Class, Deformed, Scene, Verdict};
@@ -92,6 +93,10 @@ impl Recovery {
     }
 
     fn scene(&mut self, frame: &mut Frame) -> Scene {
+        if self.tracker.objects.is_full() {
+            self.tracker.begin_anew();
+            self.shapes.clear();
+        }
         let pieces = self.shapes.cut(frame, &self.images, &mut self.tracker.objects, draws::may_be_solid);
         let frame = &*frame;
         let views = Views::split(frame);
@@ -105,8 +110,8 @@ impl Recovery {
         };
         self.viewport = Some(views.views[world.place].rect);
         let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
-        let mut verdicts =
-            classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks, &self.tracker);
+        let shown = shown(&views, &draws, &pieces, &transforms, &self.tracker);
+        let mut verdicts = classify(frame, &transforms, &views, &world, &draws, &tracks, shown);
         let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: Some(world.view) };
         self.overrides.classes(evidence, &self.images, &mut verdicts);
         let background = views.views[world.place].background;

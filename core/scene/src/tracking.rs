@@ -219,11 +219,30 @@ impl Tracker {
         let view = found.unwrap_or(before);
         let agrees = consensus::error(&world.samples, view, world.base, world.focal) <= TOLERANCE;
         if agrees {
-            self.base.0 += 1
-        } else {
-            self.base.1 += 1
+            self.base.0 += 1;
+            return view;
         }
-        view
+        self.base.1 += 1;
+        self.settle(view, world)
+    }
+
+    /// In a world's first frames: where what most is drawn under is the view but for one transform, the world was begun
+    /// with another guess, and gets the program's own coordinates now. Returns the view in the world's coordinates.
+    fn settle(&mut self, view: DMat4, world: &World) -> DMat4 {
+        let offset = matrix::rigid_inverse(view) * world.base;
+        let (known, times) = self.offset.unwrap_or((offset, 0));
+        let (place, known_place) = (offset.w_axis.truncate(), known.w_axis.truncate());
+        let is_same = consensus::turned_alike(offset, known)
+            && place.distance(known_place) <= 1e-4 * place.length().max(1.0);
+        self.offset = Some(if is_same { (offset, times + 1) } else { (offset, 0) });
+        let is_young = self.base.0 + self.base.1 <= YOUNG;
+        if !is_young || !is_same || times + 1 < BASE_TRUSTED {
+            return view;
+        }
+        self.objects.transform(matrix::rigid_inverse(offset), snapped);
+        (self.base, self.offset, self.velocity) = ((BASE_TRUSTED, 0), None, DMat4::IDENTITY);
+        self.epoch += 1;
+        world.base
     }
 
     /// Pixels within which what stands still is where it should be, by how exactly that is so in this frame: a program may
@@ -277,6 +296,12 @@ impl Tracker {
 
     fn has_trusted(&self) -> bool {
         self.objects.all().any(Object::is_trusted)
+    }
+
+    /// Forgets all objects, but not the view.
+    pub fn begin_anew(&mut self) {
+        self.objects.clear();
+        self.epoch += 1;
     }
 
     fn begin_world(&mut self) {

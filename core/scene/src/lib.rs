@@ -3,6 +3,7 @@
 //! This is the first cut: the camera is the commonest modelview matrix, classes follow from the state of
 //! a single frame. The types are those that the whole of scene recovery will fill.
 
+mod baked;
 mod classify;
 mod color;
 mod consensus;

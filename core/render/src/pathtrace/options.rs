@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afterglow_records::Paint;
-use afterglow_scene::{Class, Profile};
+use afterglow_scene::{Class, Profile, Relighting};
 use glam::Vec3;
 
 /// What a frame becomes.
@@ -39,6 +39,8 @@ pub struct PathtraceOptions {
     pub accumulate: bool,
     /// What is known of the program. It holds from the first frame on: later changes count for new windows only.
     pub profile: Option<Arc<Profile>>,
+    /// Whether light sources are recovered from baked light. It holds from the first frame on, like the profile.
+    pub relighting: Relighting,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -55,6 +57,7 @@ impl Default for PathtraceOptions {
             filter: true,
             accumulate: true,
             profile: None,
+            relighting: Relighting::Background,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

@@ -80,7 +80,7 @@ impl Tracer {
 
     fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
         Self {
-            recovery: Recovery::with_profile(options.profile.clone()),
+            recovery: Recovery::with_profile(options.profile.clone()).with_relighting(options.relighting),
             options,
             world: WorldBuilder::new(gpu),
             world_state: ResourceState::SETTLED,

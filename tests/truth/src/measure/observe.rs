@@ -44,7 +44,10 @@ impl Observed {
         });
         let lights = scene.lights.iter().filter_map(|light| match light.origin {
             LightOrigin::Gl(index) => Some((index, light.shape)),
-            LightOrigin::Program(_) | LightOrigin::Profile | LightOrigin::Fallback => None,
+            LightOrigin::Program(_)
+            | LightOrigin::Profile
+            | LightOrigin::Recovered
+            | LightOrigin::Fallback => None,
         });
         Observed { camera, lights: lights.collect(), runs: runs.filter(|run| run.triangles > 0).collect() }
     }

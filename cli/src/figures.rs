@@ -39,24 +39,26 @@ pub struct Relight {
     sources: usize,
     lights: usize,
     rays: u64,
+    /// From the bake's light to that of the lights.
+    scale: f32,
     /// The scene has these lights.
     used: bool,
 }
 
 impl From<&SceneRelight> for Relight {
     fn from(found: &SceneRelight) -> Relight {
-        let &SceneRelight {
-            residual,
-            explained,
-            triangles,
-            patches,
-            emitters,
-            sources,
-            lights,
-            rays,
-            is_used,
-        } = found;
-        Relight { residual, explained, triangles, patches, emitters, sources, lights, rays, used: is_used }
+        Relight {
+            residual: found.residual,
+            explained: found.explained,
+            triangles: found.triangles,
+            patches: found.patches,
+            emitters: found.emitters,
+            sources: found.sources,
+            lights: found.lights,
+            rays: found.rays,
+            scale: found.scale,
+            used: found.is_used,
+        }
     }
 }
 

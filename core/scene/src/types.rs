@@ -207,6 +207,8 @@ pub struct Relight {
     pub lights: usize,
     /// Rays that it took.
     pub rays: u64,
+    /// What the light of the bake is multiplied by in the scene's lights.
+    pub scale: f32,
     /// It is good enough: the scene has these lights.
     pub is_used: bool,
 }

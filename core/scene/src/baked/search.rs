@@ -140,6 +140,7 @@ fn solution(problem: &Problem, found: &Found) -> Solution {
         sources: found.lights.len(),
         lights: lights.len(),
         rays: found.rays,
+        scale,
         is_used: is_good(found.residual, found.explained),
     };
     Solution { lights, ambient: scale * sources::ambient(found, &problem.patches), report }

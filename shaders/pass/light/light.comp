@@ -149,7 +149,8 @@ Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel
     float shininess = unpack_fourth(surface.specular) * 128.0;
     bool is_mover = kind == SURFACE_BAKED_MOVER;
     uint bounce = in_contact || is_mover ? 0u : view.light_count;
-    uint stages = in_contact && view.light_count != 0u ? 3u : is_mover && view.light_count == 0u ? 1u : in_contact ? 1u : bounce + 2u;
+    bool is_one_ray = (in_contact || is_mover) && view.light_count == 0u;
+    uint stages = is_one_ray ? 1u : in_contact ? 3u : bounce + 2u;
     RayPlan asked = RayPlan(seen.normal, 0.0, vec3(0.0), vec3(0.0), false);
     Random random = Random(random_pixel, view.accumulated);
     Place place = seen;

@@ -25,7 +25,7 @@ const LEAST_PATCHES: usize = 64;
 /// Samples along a patch.
 const SAMPLES: f32 = 4.0;
 /// Samples along a triangle's box, at most.
-const MOST_STEPS: f32 = 400.0;
+const MOST_STEPS: f32 = 100.0;
 /// Share of a world's area that must show baked light.
 const LEAST_LIT: f32 = 0.5;
 /// The same from which on it has lightmaps.
@@ -205,6 +205,8 @@ impl Cells {
         };
         let mut patches: Vec<Patch> =
             self.cells.into_values().filter(|sum| sum.area > least).map(patch).collect();
+        // Texture coordinates may be anything.
+        patches.retain(|patch| patch.irradiance.is_finite() && patch.position.is_finite());
         patches.sort_by(|a, b| b.area.total_cmp(&a.area));
         patches.truncate(MOST_PATCHES);
         patches

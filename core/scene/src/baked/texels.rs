@@ -41,7 +41,8 @@ impl Image {
 
     /// The colour at texture coordinates, bilinear, 0 to 1 as stored.
     pub fn sample(&self, at: Vec2) -> Vec3 {
-        let place = at * Vec2::new(self.width as f32, self.height as f32) - 0.5;
+        let size = Vec2::new(self.width as f32, self.height as f32);
+        let place = (at * size - 0.5).clamp(Vec2::NEG_ONE, size);
         let (low, share) = (place.floor(), place - place.floor());
         let (x, y) = (low.x as i64, low.y as i64);
         let row = |y: i64| self.texel(x, y).lerp(self.texel(x + 1, y), share.x);

@@ -18,10 +18,19 @@ const CELL: f32 = 6.0;
 /// Mean brightness (sRGB) of what may shine without a glow.
 const LEAST_BRIGHTNESS: f32 = 0.25;
 
+/// Triangles near each other that face the same way.
+#[derive(Default)]
+struct Group {
+    /// Brightness times area.
+    light: f32,
+    glows: bool,
+    triangles: Vec<[Vec3; 3]>,
+}
+
 /// The surfaces of a world that may shine, those of most light first. `side` is that of a patch.
 pub fn emitters(triangles: &[Triangle], bakes: &[Option<Bake>], images: &Images, side: f32) -> Vec<Emitter> {
     let has_maps = bakes.iter().any(|bake| matches!(bake, Some(Bake::Map(..))));
-    let mut groups: BTreeMap<[i32; 6], (f32, bool, Vec<[Vec3; 3]>)> = BTreeMap::new();
+    let mut groups: BTreeMap<[i32; 6], Group> = BTreeMap::new();
     for (triangle, bake) in triangles.iter().zip(bakes).filter(|_| has_maps) {
         let bright = brightness(triangle, images);
         let may_shine = triangle.glows || (bake.is_none() && !triangle.is_lit && bright > LEAST_BRIGHTNESS);
@@ -32,20 +41,20 @@ pub fn emitters(triangles: &[Triangle], bakes: &[Option<Bake>], images: &Images,
         let facing = (triangle.normal * 2.0).round();
         let key = [place, facing].map(|v| v.to_array().map(|c| c as i32)).concat();
         let key: [i32; 6] = std::array::from_fn(|i| key[i]);
-        let (light, glows, corners) = groups.entry(key).or_default();
-        if corners.len() < MOST_TRIANGLES {
-            *light += bright * triangle.area;
-            *glows |= triangle.glows;
-            corners.push(towards(triangle));
+        let group = groups.entry(key).or_default();
+        if group.triangles.len() < MOST_TRIANGLES {
+            group.light += bright * triangle.area;
+            group.glows |= triangle.glows;
+            group.triangles.push(towards(triangle));
         }
     }
     let mut groups: Vec<_> = groups.into_values().collect();
-    groups.sort_by(|a, b| b.0.total_cmp(&a.0));
+    groups.sort_by(|a, b| b.light.total_cmp(&a.light));
     groups.truncate(MOST_EMITTERS);
-    let emitter = |(_, glows, triangles)| Emitter {
-        triangles,
+    let emitter = |group: Group| Emitter {
+        triangles: group.triangles,
         two_sided: false,
-        preference: if glows { 1.5 } else { 1.2 },
+        preference: if group.glows { 1.5 } else { 1.2 },
     };
     groups.into_iter().map(emitter).collect()
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use afterglow_scene::{Camera as SceneCamera, LightShape, SceneLight};
+use afterglow_scene::{Camera as SceneCamera, LightShape, Relight as SceneRelight, SceneLight};
 use serde::Serialize;
 
 /// The world's camera; matrices by columns.
@@ -24,6 +24,56 @@ pub struct Light {
     radius: f32,
     /// Linear.
     color: [f32; 3],
+}
+
+/// How well the sources of baked light were found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Relight {
+    /// Relative error of the light that they make.
+    residual: f32,
+    /// Share of the lit surfaces' area with an error below a quarter.
+    explained: f32,
+    triangles: usize,
+    patches: usize,
+    emitters: usize,
+    sources: usize,
+    lights: usize,
+    rays: u64,
+    /// From the bake's light to that of the lights.
+    scale: f32,
+    /// The scene has these lights.
+    used: bool,
+}
+
+impl From<&SceneRelight> for Relight {
+    fn from(found: &SceneRelight) -> Relight {
+        Relight {
+            residual: found.residual,
+            explained: found.explained,
+            triangles: found.triangles,
+            patches: found.patches,
+            emitters: found.emitters,
+            sources: found.sources,
+            lights: found.lights,
+            rays: found.rays,
+            scale: found.scale,
+            used: found.is_used,
+        }
+    }
+}
+
+impl fmt::Display for Relight {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(
+            f,
+            "baked light: {} lights recovered from {} patches, residual {:.3}, {:.0} % explained, {}",
+            self.lights,
+            self.patches,
+            self.residual,
+            100.0 * self.explained,
+            if self.used { "used" } else { "not used" }
+        )
+    }
 }
 
 impl From<&SceneCamera> for Camera {

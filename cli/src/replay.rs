@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use afterglow_player::{Player, TraceSummary};
 use afterglow_render::{Displaced, Paint, PathtraceOptions};
+use afterglow_scene::Relighting;
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -53,6 +54,9 @@ pub struct Arguments {
     /// Leave the noise of few samples in the picture
     #[arg(long)]
     no_filter: bool,
+    /// Do not search for the light sources that baked light comes from
+    #[arg(long)]
+    no_relight: bool,
     /// Show what the light is made of instead of the picture
     #[arg(long, value_enum, value_name = "VIEW")]
     paint: Option<View>,
@@ -99,6 +103,8 @@ impl Arguments {
         let mut options = PathtraceOptions::default();
         (options.spp, options.seed) = (self.spp, self.seed);
         options.filter = !self.no_filter;
+        // Frames wait for it, so that a trace always gives the same pictures.
+        options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
         options.profile = self.profile.load_for_trace(&self.trace)?;
         options.memory_bytes = u64::from(self.memory) << 20;
         options.paint = self.paint.map_or(Paint::Picture, View::paint);

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use afterglow_gl::frame::Frame;
-use afterglow_scene::Recovery;
+use afterglow_scene::{Recovery, Relighting};
 use serde::Serialize;
 
 use super::Arguments;
@@ -35,7 +35,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let painter = arguments.paint.as_deref().map(|folder| Painter::new(arguments, folder)).transpose()?;
     let proposal = arguments.propose.as_ref().map(|_| Proposal::default());
     let mut inspection = Inspection { arguments, painter, proposal, report: Report::default() };
-    let recovery = Recovery::with_profile(arguments.profile.load_for_trace(&arguments.trace)?);
+    let profile = arguments.profile.load_for_trace(&arguments.trace)?;
+    let recovery = Recovery::with_profile(profile).with_relighting(Relighting::AtOnce);
     let played = play::play(&arguments.trace, frames.end, recovery, &mut inspection);
     let Inspection { painter, proposal, mut report, .. } = inspection;
     if let Some(painter) = painter {

@@ -7,7 +7,7 @@ use afterglow_gl::frame::{Bindings, Compare, Draw, FixedState, Frame, TextureBin
 use afterglow_scene::{Recovery, Scene, Verdict};
 use serde::Serialize;
 
-use crate::figures::{Camera, Light};
+use crate::figures::{Camera, Light, Relight};
 
 /// What a frame's draws are taken for.
 #[derive(Debug, Serialize)]
@@ -16,6 +16,8 @@ pub struct FrameRows {
     camera: Camera,
     triangles: BTreeMap<&'static str, u64>,
     lights: Vec<Light>,
+    /// Once the sources of baked light were searched.
+    relight: Option<Relight>,
     /// Linear.
     sky: [f32; 3],
     /// Its colours are baked light.
@@ -67,6 +69,7 @@ impl FrameRows {
             camera: scene.camera.as_ref().map(Camera::from).unwrap_or_default(),
             triangles: scene.triangles().named().into(),
             lights: scene.lights.iter().map(Light::from).collect(),
+            relight: scene.relight.as_ref().map(Relight::from),
             sky: scene.sky.into(),
             baked: scene.baked,
             draws: frame.draws().zip(&scene.verdicts).enumerate().map(row).collect(),
@@ -80,6 +83,9 @@ impl FrameRows {
         match &self.camera.view {
             Some(view) => writeln!(out, "  view {}", rows_of(view))?,
             None => writeln!(out, "  no camera")?,
+        }
+        if let Some(relight) = &self.relight {
+            writeln!(out, "  {relight}")?;
         }
         for light in &self.lights {
             writeln!(out, "  {light}")?;

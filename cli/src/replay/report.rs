@@ -9,7 +9,7 @@ use afterglow_player::PlayReport;
 use afterglow_render::{CulledReport, FrameReport, PassReport};
 use serde::Serialize;
 
-use crate::figures::{Camera, Light};
+use crate::figures::{Camera, Light, Relight};
 
 /// Everything that `replay --json` writes.
 #[derive(Serialize)]
@@ -34,6 +34,8 @@ struct Frame {
     camera: Camera,
     triangles: BTreeMap<&'static str, u64>,
     lights: Vec<Light>,
+    /// Once the sources of baked light were searched.
+    relight: Option<Relight>,
     passes: Vec<Pass>,
     culled: Vec<CulledReport>,
     bytes: Bytes,
@@ -103,6 +105,7 @@ impl Report {
             camera: scene.and_then(|scene| scene.camera.as_ref()).map(Camera::from).unwrap_or_default(),
             triangles: scene.map(|scene| scene.triangles.named().into()).unwrap_or_default(),
             lights: scene.map(|scene| scene.lights.iter().map(Light::from).collect()).unwrap_or_default(),
+            relight: scene.and_then(|scene| scene.relight.as_ref()).map(Relight::from),
             passes: rendered.passes.iter().map(Pass::from).collect(),
             culled: rendered.culled.clone(),
             bytes: Bytes {
@@ -147,7 +150,11 @@ impl Report {
             self.frames_per_second,
             self.device.name,
             self.checksum
-        )
+        )?;
+        match self.frames.last().and_then(|frame| frame.relight) {
+            Some(relight) => writeln!(out, "{relight}"),
+            None => Ok(()),
+        }
     }
 
     /// Writes what passes and calls took.

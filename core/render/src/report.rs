@@ -1,7 +1,7 @@
 //! What a frame cost.
 
 use afterglow_frame_graph::{BytesReport, CulledReport};
-use afterglow_scene::{Camera, Scene, SceneLight, TriangleCounts};
+use afterglow_scene::{Camera, Relight, Scene, SceneLight, TriangleCounts};
 
 use crate::pathtrace::TraceCounts;
 
@@ -14,11 +14,18 @@ pub struct SceneReport {
     pub triangles: TriangleCounts,
     /// The lights of the world.
     pub lights: Vec<SceneLight>,
+    /// How well the sources of its baked light were found, once they were searched.
+    pub relight: Option<Relight>,
 }
 
 impl SceneReport {
     pub(crate) fn of(scene: &Scene) -> Self {
-        Self { camera: scene.camera, triangles: scene.triangles(), lights: scene.lights.clone() }
+        Self {
+            camera: scene.camera,
+            triangles: scene.triangles(),
+            lights: scene.lights.clone(),
+            relight: scene.relight,
+        }
     }
 }
 

@@ -38,6 +38,8 @@ struct Classifier<'a> {
     track: Option<&'a Track>,
     /// Operation of the surface that the draw at hand was found to be a layer of.
     base: Option<u32>,
+    /// Operations of surfaces that layers multiply.
+    multiplied: Vec<u32>,
 }
 
 /// The verdicts on all draws of a frame, in order.
@@ -66,10 +68,11 @@ pub fn classify<'a>(
         shown,
         track: None,
         base: None,
+        multiplied: Vec::new(),
     };
     let mut verdicts: Vec<Verdict> =
         draws.iter().zip(tracks).map(|(facts, track)| classifier.verdict(facts, track.as_ref())).collect();
-    bake_below_lightmaps(frame, draws, &mut verdicts);
+    bake_below_lightmaps(frame, draws, &classifier.multiplied, &mut verdicts);
     verdicts
 }
 
@@ -78,10 +81,9 @@ fn may_be_layer(facts: &DrawFacts) -> bool {
 }
 
 /// An unlit surface that a layer multiplies shows baked light.
-fn bake_below_lightmaps(frame: &Frame, draws: &[DrawFacts], verdicts: &mut [Verdict]) {
-    for i in 0..verdicts.len() {
-        let Some(base) = verdicts[i].base.filter(|_| draws[i].mixing == Mixing::Multiply) else { continue };
-        if let Ok(below) = draws.binary_search_by_key(&base, |facts| facts.operation) {
+fn bake_below_lightmaps(frame: &Frame, draws: &[DrawFacts], multiplied: &[u32], verdicts: &mut [Verdict]) {
+    for base in multiplied {
+        if let Ok(below) = draws.binary_search_by_key(base, |facts| facts.operation) {
             let words = &frame.fixed[draws[below].draw.fixed as usize].words;
             verdicts[below].baked |= !words.is_lit();
         }
@@ -318,8 +320,14 @@ impl<'a> Classifier<'a> {
         }
         let (modelview, mixing) = (self.transform(facts).modelview_hash, facts.mixing);
         self.base = self.surfaces.same(self.frame, facts.draw, modelview);
-        let again = self.base.is_some() || self.surfaces.has_triangles(self.frame, facts.draw, modelview);
-        again.then_some(match mixing {
+        let below = match self.base {
+            Some(base) => vec![base],
+            None => self.surfaces.below(self.frame, facts.draw, modelview)?,
+        };
+        if mixing == Mixing::Multiply {
+            self.multiplied.extend(below);
+        }
+        Some(match mixing {
             Mixing::Multiply => (Class::Layer, "multiplies a surface drawn before"),
             Mixing::Add => (Class::Layer, "adds to a surface drawn before"),
             Mixing::Opaque => (Class::Layer, "replaces a surface drawn before"),

@@ -105,7 +105,8 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
         let trusted = witnesses[b].is_trusted.cmp(&witnesses[a].is_trusted);
         trusted.then(extents[b].total_cmp(&extents[a])).then(a.cmp(&b))
     });
-    let trusted = witnesses.iter().zip(&extents).filter(|(w, _)| w.is_trusted).map(|(_, extent)| extent).sum();
+    let trusted =
+        witnesses.iter().zip(&extents).filter(|(w, _)| w.is_trusted).map(|(_, extent)| extent).sum();
     let all: f64 = extents.iter().sum();
     let mut candidates: Vec<Candidate> = Vec::new();
     for view in proposals(witnesses, &order, prior) {

@@ -162,7 +162,8 @@ impl Formers {
     ) -> bool {
         let corners = corners(frame, draw);
         let deforms = before.is_some_and(|former| {
-            content.triangles >= SHAPE && has_deformed(&former.samples, &content.samples)
+            let is_near = former.centre.distance(content.centre) <= AS_KNOWN * former.extent;
+            content.triangles >= SHAPE && is_near && has_deformed(&former.samples, &content.samples)
         });
         // What changed its shape has not come into view as something else.
         let streak = before.map_or(0, |former| former.streak + if deforms { STREAK } else { 1 });

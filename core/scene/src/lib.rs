@@ -5,6 +5,7 @@
 //! state of their draws (`classify`). `ARCHITECTURE.md` has the whole of it.
 
 mod alpha;
+mod baked;
 mod classify;
 mod color;
 mod consensus;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use afterglow_gl::frame::{Frame, ImageKey, Rect};
 use glam::{DMat3, Vec3};
 
+use crate::baked::BakedLight;
 use crate::classify::classify;
 use crate::draws::{self, DrawFacts, TransformFacts};
 use crate::geometry::ContentCache;
@@ -17,7 +18,7 @@ use crate::shapes::Shapes;
 use crate::shown::shown;
 use crate::sky;
 use crate::tracking::{Track, Tracker};
-use crate::types::{Camera, Class, Deformed, Scene, Verdict};
+use crate::types::{Camera, Class, Deformed, Relighting, Scene, Verdict};
 use crate::views::Views;
 use crate::world::World;
 
@@ -39,6 +40,7 @@ pub struct Recovery {
     said: hints::Places,
     overrides: Overrides,
     memory: Memory,
+    baked: BakedLight,
 }
 
 impl Recovery {
@@ -70,11 +72,19 @@ impl Recovery {
         self.memory.counts()
     }
 
+    /// The same, with light sources recovered from the world's baked light.
+    pub fn with_relighting(mut self, relighting: Relighting) -> Recovery {
+        self.baked = BakedLight::new(relighting);
+        self
+    }
+
     /// Takes note of a frame's texture images. For frames that are not understood; cheap.
     pub fn observe(&mut self, frame: &Frame) {
         self.images.learn(frame);
         self.memory.observe(frame);
+        self.baked.learn_images(frame);
         self.images.forget(frame);
+        self.baked.forget_images(frame);
     }
 
     /// What is known of an image of the frames so far, unless it was dropped.
@@ -85,10 +95,15 @@ impl Recovery {
     /// The scene that a frame draws. Sees to the frame's images as well.
     pub fn understand(&mut self, frame: &mut Frame) -> Scene {
         self.images.learn(frame);
+        self.baked.learn_images(frame);
         let mut scene = self.scene(frame);
         hints::apply(frame, &mut scene, &mut self.said);
         self.memory.remember(frame, &self.images, &mut scene);
+        if self.overrides.takes_found_lights() {
+            self.baked.apply(frame, &mut scene, &self.images, self.tracker.epoch);
+        }
         self.images.forget(frame);
+        self.baked.forget_images(frame);
         scene
     }
 
@@ -154,6 +169,7 @@ impl Recovery {
             sky,
             ambient,
             baked,
+            relight: None,
             cut: false,
             epoch: self.tracker.epoch,
             unseen: Vec::new(),

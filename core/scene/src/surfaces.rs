@@ -18,8 +18,9 @@ pub struct Surfaces {
     /// Operation by hash of positions and hash of MODELVIEW.
     drawn: HashMap<(u64, u64), u32>,
     /// By hash of MODELVIEW: surfaces whose triangles are not in `triangles` yet.
-    waiting: HashMap<u64, Vec<Draw>>,
-    triangles: HashMap<u64, HashSet<u64>>,
+    waiting: HashMap<u64, Vec<(u32, Draw)>>,
+    /// Operations by hash of MODELVIEW and key.
+    triangles: HashMap<u64, HashMap<u64, u32>>,
 }
 
 impl Surfaces {
@@ -38,7 +39,7 @@ impl Surfaces {
             let positions = hash_positions(frame, facts.draw);
             self.drawn.insert((positions, modelview), facts.operation);
         }
-        self.waiting.entry(modelview).or_default().push(*facts.draw);
+        self.waiting.entry(modelview).or_default().push((facts.operation, *facts.draw));
     }
 
     /// The surface with exactly the positions of a draw.
@@ -49,18 +50,20 @@ impl Surfaces {
         self.drawn.get(&(hash_positions(frame, draw), modelview)).copied()
     }
 
-    /// Whether most triangles of a draw belong to surfaces, in whatever batches they were drawn.
-    pub fn has_triangles(&mut self, frame: &Frame, draw: &Draw, modelview: u64) -> bool {
+    /// The surfaces that most triangles of a draw belong to, in whatever batches they were drawn: those of the triangles that
+    /// were looked up.
+    pub fn below(&mut self, frame: &Frame, draw: &Draw, modelview: u64) -> Option<Vec<u32>> {
         let known = self.triangles.entry(modelview).or_default();
-        for surface in self.waiting.remove(&modelview).unwrap_or_default() {
-            known.extend(triangle_keys(frame, &surface, surface.index_count as usize / 3));
+        for (operation, surface) in self.waiting.remove(&modelview).unwrap_or_default() {
+            let keys = triangle_keys(frame, &surface, surface.index_count as usize / 3);
+            known.extend(keys.map(|key| (key, operation)));
         }
-        let (mut found, mut tried) = (0, 0);
+        let (mut found, mut tried) = (Vec::new(), 0);
         for key in triangle_keys(frame, draw, TRIED) {
-            found += usize::from(known.contains(&key));
+            found.extend(known.get(&key));
             tried += 1;
         }
-        found * 2 > tried
+        (found.len() * 2 > tried).then_some(found)
     }
 }
 

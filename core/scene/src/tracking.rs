@@ -223,7 +223,8 @@ impl Tracker {
             return view;
         }
         self.base.1 += 1;
-        let under_base = claims.iter().filter(|claim| claim.is_witness && claim.eye == world.base_eye).count();
+        let under_base =
+            claims.iter().filter(|claim| claim.is_witness && claim.eye == world.base_eye).count();
         let witnesses = claims.iter().filter(|claim| claim.is_witness).count();
         if 2 * under_base > witnesses { self.settle(view, world) } else { view }
     }

@@ -123,6 +123,8 @@ pub enum LightOrigin {
     Program(u64),
     /// The program's profile.
     Profile,
+    /// The world's baked light: what was found to have been there when it was baked.
+    Recovered,
     /// Nothing was found: a soft sun.
     Fallback,
 }
@@ -134,6 +136,7 @@ impl fmt::Display for LightOrigin {
             LightOrigin::Gl(number) => write!(f, "GL_LIGHT{number}"),
             LightOrigin::Program(id) => write!(f, "program {id}"),
             LightOrigin::Profile => f.write_str("profile"),
+            LightOrigin::Recovered => f.write_str("recovered"),
             LightOrigin::Fallback => f.write_str("fallback"),
         }
     }
@@ -172,6 +175,44 @@ pub struct SceneLight {
     pub color: Vec3,
     /// Where it came from.
     pub origin: LightOrigin,
+}
+
+/// Whether the sources of baked light are searched, and when they are known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Relighting {
+    /// They are not.
+    #[default]
+    Off,
+    /// On a thread, beside the frames: nothing waits, and the frame from which they are known is any.
+    Background,
+    /// In the frame in which enough of the world has been seen: the same frames give the same lights. That frame takes
+    /// seconds.
+    AtOnce,
+}
+
+/// How well the sources of baked light were found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Relight {
+    /// Relative error of the light that they make, area-weighted L2.
+    pub residual: f32,
+    /// Share of the lit surfaces' area with an error below a quarter.
+    pub explained: f32,
+    /// Triangles of the world that was searched.
+    pub triangles: usize,
+    /// Patches of its lit surfaces.
+    pub patches: usize,
+    /// Surfaces that might have shone.
+    pub emitters: usize,
+    /// Sources that were found.
+    pub sources: usize,
+    /// Lights that became of them.
+    pub lights: usize,
+    /// Rays that it took.
+    pub rays: u64,
+    /// What the light of the bake is multiplied by in the scene's lights.
+    pub scale: f32,
+    /// It is good enough: the scene has these lights.
+    pub is_used: bool,
 }
 
 /// Triangles of a frame by class.
@@ -235,7 +276,7 @@ pub struct Scene {
     pub verdicts: Vec<Verdict>,
     /// Former positions of the dynamic draws that were there in the frame before, in the frame's order.
     pub deformed: Vec<Deformed>,
-    /// The lights. Empty when the program's baked light is the light.
+    /// The lights. Empty when the program's baked light is the light, or those that it was found to come from.
     pub lights: Vec<SceneLight>,
     /// Linear RGB from every direction that sees no surface.
     pub sky: Vec3,
@@ -243,6 +284,8 @@ pub struct Scene {
     pub ambient: Vec3,
     /// The world shows baked light (lightmaps, vertex colours) and has no light sources of its own.
     pub baked: bool,
+    /// How well the sources of baked light were found, once they were searched.
+    pub relight: Option<Relight>,
     /// The program says that nothing of the frames before is seen any more.
     pub cut: bool,
     /// Counts worlds: another level, or anything that has no place in common with what was drawn before, has another.

@@ -98,11 +98,13 @@ struct RayPlan {
     bool is_worth_it;
 };
 
-// Sums over samples.
+// Sums over samples. Of baked surfaces: `direct` is what recovered lights bring, `unmoved` what they would bring if nothing
+// moved.
 struct Sums {
     vec3 direct;
     vec3 indirect;
     vec3 specular;
+    vec3 unmoved;
     // Rays that bounced and met nothing.
     float missed;
 };
@@ -128,41 +130,57 @@ RayPlan plan_shadow(ViewRecord view, Place place, uint light, float inverse_chan
     return plan;
 }
 
+// One light of all, chosen by what it would bring.
+RayPlan plan_any_shadow(ViewRecord view, Place place, float number, vec2 numbers) {
+    float inverse_chance;
+    uint light = chosen_light(view, place.start, place.normal, number, inverse_chance);
+    return plan_shadow(view, place, light, inverse_chance, numbers);
+}
+
 // Samples of a pixel. Of surfaces that lights reach, a sample is a shadow ray to each light, one ray that
-// bounces, and a shadow ray from where that ends; among baked surfaces it is one ray.
+// bounces, and a shadow ray from where that ends. Among baked surfaces it is one ray; where the lights are known that were
+// baked, one of them as well: first what stands still is asked whether it hides it, then what moves.
 Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel) {
-    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
     uint kind = surface_kind(surface);
     bool in_contact = kind == SURFACE_BAKED;
     vec3 to_viewer = unit_vector(-surface.start);
     vec3 specular_color = unpack_color(surface.specular);
     float shininess = unpack_fourth(surface.specular) * 128.0;
-    uint bounce = in_contact ? 0u : view.light_count;
-    uint stages = kind == SURFACE_LIT || kind == SURFACE_CATCHER ? bounce + 2u : bounce + 1u;
+    bool is_mover = kind == SURFACE_BAKED_MOVER;
+    uint bounce = in_contact || is_mover ? 0u : view.light_count;
+    bool is_one_ray = (in_contact || is_mover) && view.light_count == 0u;
+    uint stages = is_one_ray ? 1u : in_contact ? 3u : bounce + 2u;
+    RayPlan asked = RayPlan(seen.normal, 0.0, vec3(0.0), vec3(0.0), false);
     Random random = Random(random_pixel, view.accumulated);
     Place place = seen;
     uint stage = 0u;
     [[dont_unroll]] for (uint i = view.samples * stages; i != 0u; --i) {
         vec2 numbers = random_2d(random, stage);
         RayPlan plan;
-        if (in_contact) {
+        uint mask = place.mask;
+        if (in_contact && stage == 0u) {
             plan = plan_contact(place, numbers, view.contact_reach);
+        } else if (in_contact && stage == 2u) {
+            plan = asked;
+        } else if (in_contact) {
+            plan = plan_any_shadow(view, place, random_2d(random, 3u).x, numbers);
+            mask = MASK_STATIC;
         } else if (stage == bounce) {
             plan = plan_bounce(place, numbers);
         } else {
-            uint light = stage;
-            float inverse_chance = 1.0;
-            if (stage > bounce) {
-                float number = random_2d(random, stage + 1u).x;
-                light = place.weight == vec3(0.0)
-                    ? view.light_count : chosen_light(view, place.start, place.normal, number, inverse_chance);
+            if (stage < bounce) {
+                plan = plan_shadow(view, place, stage, 1.0, numbers);
+            } else if (place.weight != vec3(0.0)) {
+                plan = plan_any_shadow(view, place, random_2d(random, stage + 1u).x, numbers);
+            } else {
+                plan = RayPlan(place.normal, 0.0, vec3(0.0), vec3(0.0), false);
             }
-            plan = plan_shadow(view, place, light, inverse_chance, numbers);
         }
         Hit hit;
         bool met = false;
         if (plan.is_worth_it) {
-            met = bvh_trace(view.world, place.start, 0.0, plan.direction, plan.reach, place.mask, stage != bounce, hit);
+            met = bvh_trace(view.world, place.start, 0.0, plan.direction, plan.reach, mask, stage != bounce, hit);
         }
         if (stage == bounce) {
             if (in_contact) {
@@ -173,9 +191,18 @@ Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel
                 sums.missed += plan.is_worth_it ? 1.0 : 0.0;
                 place.weight = vec3(0.0);
             }
+            if (is_mover) {
+                place = seen;
+                place.weight = vec3(1.0);
+            }
         } else if (plan.is_worth_it && !met) {
             vec3 brought = plan.color * dot(place.normal, plan.direction);
-            if (stage < bounce) {
+            if (in_contact && stage == 1u) {
+                sums.unmoved += min(brought, MOST_RADIANCE);
+                asked = plan;
+            } else if (in_contact || is_mover) {
+                sums.direct += min(brought, MOST_RADIANCE);
+            } else if (stage < bounce) {
                 sums.direct += brought;
                 float glint = max(dot(place.normal, unit_vector(plan.direction + to_viewer)), 0.0);
                 sums.specular += plan.specular * linear_from_srgb(specular_color * power(glint, shininess));
@@ -187,9 +214,23 @@ Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel
             stage = 0u;
             ++random.sample_index;
             place = seen;
+            asked.is_worth_it = false;
         }
     }
     return sums;
+}
+
+// How much of a baked surface's light is left where moving things take some of it away. The bake adds up as the
+// program stored it, which is not linear light.
+vec3 light_left(ViewRecord view, Sums sums) {
+    float samples = float(view.samples);
+    vec3 contact = sums.indirect / samples;
+    if (view.light_count == 0u) {
+        return contact;
+    }
+    vec3 diffuse = max(view.ambient + view.sky, 1e-3);
+    vec3 left = (diffuse * contact + sums.direct / samples) / (diffuse + sums.unmoved / samples);
+    return pow(clamp(left, 0.0, 1.0), vec3(2.2));
 }
 
 // The mean of a pixel's samples, as composition takes it.
@@ -205,12 +246,20 @@ LightTexel found_light(ViewRecord view, SurfaceTexel surface, uint index) {
     seen.mask = surface_ray_mask(surface);
     seen.weight = vec3(0.0);
     Sums sums = gather(view, surface, seen, hash(index + hash(view.seed)));
+    if (kind == SURFACE_BAKED) {
+        return LightTexel(vec3(0.0), light_left(view, sums), vec3(0.0));
+    }
     vec3 open = view.sky + view.ambient;
     if (kind == SURFACE_BAKED_MOVER) {
         // Where nothing was met there may be walls that were not drawn: it is no darker there than elsewhere.
         open = max(open, sums.indirect / max(float(view.samples) - sums.missed, 1.0));
     }
     sums.indirect += sums.missed * open;
+    if (kind == SURFACE_BAKED_MOVER) {
+        // Few samples and many lights: it is smoothed with the rest.
+        sums.indirect += sums.direct;
+        sums.direct = vec3(0.0);
+    }
     vec3 scale = vec3(1.0 / float(view.samples));
     vec3 light_scale = scale;
     if (kind == SURFACE_CATCHER) {

@@ -4,7 +4,10 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use afterglow_truth::measure::{Report, measure, measure_played, play_file, write_table, write_wrong};
+use afterglow_scene::Relighting;
+use afterglow_truth::measure::{
+    Report, baked, measure, measure_played, play_as, play_file, write_baked, write_table, write_wrong,
+};
 use afterglow_truth::oracle::{self, ORACLES, Oracle};
 use afterglow_truth::styles::{self, Entry, STYLES};
 use anyhow::Context;
@@ -36,6 +39,9 @@ struct Arguments {
     /// Also say for what triangles were taken, and why
     #[arg(long)]
     wrong: bool,
+    /// Instead, search for the light sources of baked light, and compare them with those it was computed from
+    #[arg(long, conflicts_with = "oracle")]
+    relight: bool,
     /// Also write the figures as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -44,6 +50,9 @@ struct Arguments {
 fn main() -> anyhow::Result<()> {
     let arguments = Arguments::parse();
     let mut out = std::io::stdout().lock();
+    if arguments.relight {
+        return chosen(&arguments.styles)?.into_iter().try_for_each(|entry| relight(&mut out, entry));
+    }
     let reports: Vec<Report> = match &arguments.oracle {
         Some(name) => {
             let oracle = oracle::named(name).with_context(|| format!("no oracle '{name}'"))?;
@@ -114,6 +123,13 @@ fn chosen(names: &[String]) -> anyhow::Result<Vec<&'static Entry>> {
         return Ok(STYLES.iter().collect());
     }
     names.iter().map(|name| styles::named(name).with_context(|| format!("no style '{name}'"))).collect()
+}
+
+fn relight(out: &mut impl Write, entry: &Entry) -> anyhow::Result<()> {
+    let recording = entry.record()?;
+    let played = play_as(&recording.trace, Relighting::AtOnce).with_context(|| entry.name)?;
+    let observed: Vec<_> = played.into_iter().map(|frame| frame.observed).collect();
+    Ok(write_baked(out, entry.name, baked(&recording.truth, &observed).as_ref())?)
 }
 
 fn run(entry: &Entry, arguments: &Arguments) -> anyhow::Result<Report> {

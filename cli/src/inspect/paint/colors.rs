@@ -109,6 +109,7 @@ impl Source {
             LightOrigin::Gl(_) | LightOrigin::Program(_) => Source::Gl,
             LightOrigin::Fallback => Source::Fallback,
             LightOrigin::Profile => Source::Profile,
+            LightOrigin::Recovered => Source::Baked,
         }
     }
 

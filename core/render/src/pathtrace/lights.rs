@@ -50,7 +50,7 @@ impl Highlights {
         let color = match light.origin {
             LightOrigin::Gl(number) => self.colors.get(usize::from(number)).copied().flatten(),
             LightOrigin::Program(_) => return light.color.to_array(),
-            LightOrigin::Profile | LightOrigin::Fallback => None,
+            LightOrigin::Profile | LightOrigin::Recovered | LightOrigin::Fallback => None,
         };
         color.unwrap_or_default().map(|c| linear_from_srgb(c.clamp(0.0, 1.0)))
     }

@@ -27,7 +27,8 @@ pub(crate) enum Lighting {
 impl Lighting {
     pub(crate) fn of(scene: &Scene) -> Self {
         let is_programs = |origin| matches!(origin, LightOrigin::Gl(_));
-        if scene.lights.is_empty() {
+        // Recovered lights do not take the place of the light that they were recovered from.
+        if scene.lights.iter().all(|light| light.origin == LightOrigin::Recovered) {
             Self::Baked
         } else if scene.lights.iter().any(|light| matches!(light.origin, LightOrigin::Program(_))) {
             Self::Said

@@ -88,7 +88,8 @@ impl Tracer {
     }
 
     fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
-        let mut recovery = Recovery::with_profile(options.profile.clone());
+        let mut recovery =
+            Recovery::with_profile(options.profile.clone()).with_relighting(options.relighting);
         recovery.set_memory(options.memory_bytes);
         Self {
             options,

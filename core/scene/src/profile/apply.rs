@@ -59,6 +59,11 @@ impl Overrides {
         }
     }
 
+    /// Whether lights that are found may be added to a scene.
+    pub(crate) fn takes_found_lights(&self) -> bool {
+        self.profile.as_ref().is_none_or(|profile| profile.lights.found != Found::Off)
+    }
+
     /// Overrides camera, lights and sky.
     pub(crate) fn scene(&mut self, evidence: Evidence, images: &Images, scene: &mut Scene) {
         let Some(profile) = self.profile.clone() else { return };

@@ -1,6 +1,6 @@
 //! What recovery said of a frame, triangle by triangle.
 
-use afterglow_scene::{Class, LightOrigin, LightShape, Scene};
+use afterglow_scene::{Class, LightOrigin, LightShape, Relight, Scene, SceneLight};
 use glam::DMat4;
 
 use crate::truth::{FrameTruth, Label, TrueCamera, TrueLight, TrueLightOrigin, TrueLightShape};
@@ -25,6 +25,9 @@ pub struct Observed {
     pub camera: Option<TrueCamera>,
     /// Lights that it took from glLight, by number.
     pub lights: Vec<(u8, LightShape)>,
+    /// Lights that it recovered from baked light, and how well that went; where it was asked to.
+    pub recovered: Vec<SceneLight>,
+    pub relight: Option<Relight>,
     /// Of all triangles, in order.
     pub runs: Vec<Run>,
 }
@@ -44,9 +47,19 @@ impl Observed {
         });
         let lights = scene.lights.iter().filter_map(|light| match light.origin {
             LightOrigin::Gl(index) => Some((index, light.shape)),
-            LightOrigin::Program(_) | LightOrigin::Profile | LightOrigin::Fallback => None,
+            LightOrigin::Program(_)
+            | LightOrigin::Profile
+            | LightOrigin::Recovered
+            | LightOrigin::Fallback => None,
         });
-        Observed { camera, lights: lights.collect(), runs: runs.filter(|run| run.triangles > 0).collect() }
+        let recovered = scene.lights.iter().filter(|light| light.origin == LightOrigin::Recovered);
+        Observed {
+            camera,
+            lights: lights.collect(),
+            recovered: recovered.copied().collect(),
+            relight: scene.relight,
+            runs: runs.filter(|run| run.triangles > 0).collect(),
+        }
     }
 
     /// What a recovery that is always right says.
@@ -58,7 +71,13 @@ impl Observed {
             triangles: label.triangles,
         });
         let lights = truth.lights.iter().filter_map(ideal_light);
-        Observed { camera: truth.camera, lights: lights.collect(), runs: runs.collect() }
+        Observed {
+            camera: truth.camera,
+            lights: lights.collect(),
+            recovered: Vec::new(),
+            relight: None,
+            runs: runs.collect(),
+        }
     }
 
     /// Triangles in all.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::{Frame, Topology};
 use afterglow_player::{DrawableSizes, PlayReport, Player, TraceSummary};
-use afterglow_scene::Recovery;
+use afterglow_scene::{Recovery, Relighting};
 use afterglow_trace::TraceReader;
 use anyhow::{Context, ensure};
 use parking_lot::Mutex;
@@ -45,6 +45,8 @@ impl Watcher {
         let observed = Observed::of(&scene);
         self.part.observed.camera = observed.camera.or(self.part.observed.camera);
         self.part.observed.lights.extend(observed.lights);
+        self.part.observed.recovered.extend(observed.recovered);
+        self.part.observed.relight = observed.relight.or(self.part.observed.relight);
         self.part.observed.runs.extend(observed.runs);
     }
 }
@@ -68,9 +70,17 @@ impl Backend for Watcher {
 /// # Errors
 /// Where a call cannot be played, or is an error of OpenGL.
 pub fn play(trace: &[u8]) -> anyhow::Result<Vec<Played>> {
+    play_as(trace, Relighting::Off)
+}
+
+/// The same; `relighting` says whether the sources of baked light are searched, which takes seconds.
+///
+/// # Errors
+/// Where a call cannot be played, or is an error of OpenGL.
+pub fn play_as(trace: &[u8], relighting: Relighting) -> anyhow::Result<Vec<Played>> {
     let reader = TraceReader::from_reader(Cursor::new(trace.to_vec()))?;
     let sizes = DrawableSizes::all(WINDOW.0 as u32, WINDOW.1 as u32);
-    let (played, report) = play_all(reader, sizes);
+    let (played, report) = play_all(reader, sizes, relighting);
     let skipped = [&report.unsupported, &report.malformed, &report.without_context];
     ensure!(skipped.iter().all(|calls| calls.is_empty()), "calls were not played: {skipped:?}");
     ensure!(report.errors.is_empty(), "OpenGL errors: {:?}", report.errors);
@@ -85,16 +95,17 @@ pub fn play(trace: &[u8]) -> anyhow::Result<Vec<Played>> {
 pub fn play_file(path: &Path) -> anyhow::Result<Vec<Played>> {
     let named = || path.display().to_string();
     let sizes = TraceSummary::open(path).with_context(named)?.sizes();
-    let (played, report) = play_all(TraceReader::open(path).with_context(named)?, sizes);
+    let (played, report) = play_all(TraceReader::open(path).with_context(named)?, sizes, Relighting::Off);
     ensure!(report.failure.is_none(), "{:?}", report.failure);
     Ok(played)
 }
 
-fn play_all(reader: TraceReader, sizes: DrawableSizes) -> (Vec<Played>, PlayReport) {
+fn play_all(reader: TraceReader, sizes: DrawableSizes, relighting: Relighting) -> (Vec<Played>, PlayReport) {
     let frames = Arc::new(Mutex::new(Vec::new()));
     let shared = frames.clone();
     let factory = Box::new(move |_| {
-        Box::new(Watcher { frames: shared.clone(), ..Watcher::default() }) as Box<dyn Backend>
+        let recovery = Recovery::new().with_relighting(relighting);
+        Box::new(Watcher { recovery, frames: shared.clone(), ..Watcher::default() }) as Box<dyn Backend>
     });
     let mut player = Player::new(reader, sizes, factory);
     while player.next_frame().is_some() {}

@@ -1,5 +1,6 @@
 //! The styles: each a small program that draws as a kind of engine does.
 
+mod baked_room;
 mod batches;
 mod billboards;
 mod buffers;
@@ -246,6 +247,12 @@ pub const STYLES: &[Entry] = &[
         has: "a camera that turns round on the spot and back",
         frames: 48,
         begin: |gl| Box::new(looking_back::LookingBack::begin(gl)),
+    },
+    Entry {
+        name: "baked_room",
+        has: "a lightmap that is baked as light goes: inverse squares, cosines, shadows",
+        frames: 48,
+        begin: |gl| Box::new(baked_room::BakedRoom::begin(gl)),
     },
     Entry {
         name: "split_screen",

@@ -1,0 +1,147 @@
+//! The search for sources: at once, or on a thread beside the frames.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use afterglow_relight::{Baked, Emitter, Found, Options, Patch, Sky, recover};
+use glam::Vec3;
+
+use super::sources;
+use crate::types::{Relight, SceneLight};
+
+/// What a search may cost; see [`Options::rays`].
+const RAYS: u64 = 3_000_000;
+/// Lights are used from this share of explained area on, up to this residual.
+const LEAST_EXPLAINED: f32 = 0.4;
+const MOST_RESIDUAL: f32 = 0.4;
+
+/// What sources are searched in.
+#[derive(Debug)]
+pub struct Problem {
+    /// All of the static world.
+    pub triangles: Vec<[Vec3; 3]>,
+    /// Its lit surfaces.
+    pub patches: Vec<Patch>,
+    /// Surfaces that may shine.
+    pub emitters: Vec<Emitter>,
+    /// The brightest that the bake can be.
+    pub saturation: f32,
+    /// The program draws a sky.
+    pub has_sky: bool,
+}
+
+/// What was found.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// The strongest first.
+    pub lights: Vec<SceneLight>,
+    /// What comes from everywhere, as [`Scene::ambient`](crate::Scene::ambient) has it.
+    pub ambient: Vec3,
+    /// How good it is.
+    pub report: Relight,
+}
+
+/// Light sources are searched in one problem at a time.
+#[derive(Debug, Default)]
+pub struct Search {
+    /// Found, and nobody has asked for it yet.
+    found: Option<Solution>,
+    running: Option<Running>,
+}
+
+#[derive(Debug)]
+struct Running {
+    cancel: Arc<AtomicBool>,
+    result: Receiver<Solution>,
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.cancel.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Search {
+    /// Whether a thread searches.
+    pub fn is_running(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// Searches, on a thread where `in_background`.
+    pub fn begin(&mut self, problem: Problem, in_background: bool) {
+        if !in_background {
+            self.found = solve(&problem, &AtomicBool::new(false));
+            return;
+        }
+        let (sender, result) = channel();
+        let cancel = Arc::new(AtomicBool::new(false));
+        let running = Running { cancel: cancel.clone(), result };
+        let thread = std::thread::Builder::new().name("relight".into());
+        let work = move || {
+            if let Some(solution) = solve(&problem, &cancel) {
+                // Nobody waits any more: so be it.
+                let _ = sender.send(solution);
+            }
+        };
+        // Without a thread the world stays as it is baked.
+        self.running = thread.spawn(work).ok().map(|_| running);
+    }
+
+    /// What was found since the last call.
+    pub fn take(&mut self) -> Option<Solution> {
+        if let Some(running) = &self.running {
+            match running.result.try_recv() {
+                Ok(solution) => self.found = Some(solution),
+                Err(TryRecvError::Empty) => return self.found.take(),
+                Err(TryRecvError::Disconnected) => {}
+            }
+            self.running = None;
+        }
+        self.found.take()
+    }
+}
+
+/// None where it was cancelled. Where a sky is drawn it is let in where nothing was seen; if that explains too little, the holes
+/// in what is known of the world may not be sky.
+fn solve(problem: &Problem, cancel: &AtomicBool) -> Option<Solution> {
+    let found = |sky| {
+        let baked = Baked {
+            triangles: &problem.triangles,
+            patches: &problem.patches,
+            emitters: &problem.emitters,
+            sky,
+        };
+        let options = Options { saturation: Some(problem.saturation), rays: RAYS, ..Options::default() };
+        recover(&baked, &options, cancel)
+    };
+    let mut best = found(if problem.has_sky { Sky::Open } else { Sky::None })?;
+    if problem.has_sky && !is_good(best.residual, best.explained) {
+        let closed = found(Sky::None)?;
+        let rays = best.rays + closed.rays;
+        best = Found { rays, ..if closed.residual < best.residual { closed } else { best } };
+    }
+    Some(solution(problem, &best))
+}
+
+fn is_good(residual: f32, explained: f32) -> bool {
+    explained >= LEAST_EXPLAINED && residual <= MOST_RESIDUAL
+}
+
+fn solution(problem: &Problem, found: &Found) -> Solution {
+    let scale = sources::scale(&problem.patches);
+    let lights = sources::lights(&found.lights, &problem.emitters, scale);
+    let report = Relight {
+        residual: found.residual,
+        explained: found.explained,
+        triangles: problem.triangles.len(),
+        patches: problem.patches.len(),
+        emitters: problem.emitters.len(),
+        sources: found.lights.len(),
+        lights: lights.len(),
+        rays: found.rays,
+        scale,
+        is_used: is_good(found.residual, found.explained),
+    };
+    Solution { lights, ambient: scale * sources::ambient(found, &problem.patches), report }
+}

@@ -60,6 +60,9 @@ pub struct Arguments {
     /// Show what the light is made of instead of the picture
     #[arg(long, value_enum, value_name = "VIEW")]
     paint: Option<View>,
+    /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none (pathtrace)
+    #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
+    pub memory: u32,
     /// Move light I by X,Y,Z (world units), to see its shadows follow
     #[arg(long, value_name = "I:X,Y,Z", hide_short_help = true)]
     pub debug_move_light: Option<session::Move>,
@@ -103,6 +106,7 @@ impl Arguments {
         // Frames wait for it, so that a trace always gives the same pictures.
         options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
         options.profile = self.profile.load_for_trace(&self.trace)?;
+        options.memory_bytes = u64::from(self.memory) << 20;
         options.paint = self.paint.map_or(Paint::Picture, View::paint);
         options.move_light = self.debug_move_light.map(|m| (m.index as usize, m.offset.into()));
         options.move_draw = self.debug_move_draw.map(|m| (Displaced::Draw(m.index), m.offset.into()));

@@ -26,6 +26,9 @@ pub struct Arguments {
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
     seed: u32,
+    /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none (pathtrace)
+    #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
+    memory: u32,
     /// Record what the program calls, in apitrace's format. Further processes of the program record into FILE.1.trace
     /// and so on
     #[arg(long, value_name = "FILE", env = "AFTERGLOW_RECORD")]
@@ -85,7 +88,8 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
         .env("SDL_VIDEODRIVER", "x11")
         .env("SDL_VIDEO_DRIVER", "x11")
         .env("AFTERGLOW_SPP", arguments.spp.to_string())
-        .env("AFTERGLOW_SEED", arguments.seed.to_string());
+        .env("AFTERGLOW_SEED", arguments.seed.to_string())
+        .env("AFTERGLOW_MEMORY", arguments.memory.to_string());
     if let Some(mode) = arguments.mode {
         command.env("AFTERGLOW_MODE", mode.name());
     }

@@ -15,7 +15,8 @@ const LIVE_SAMPLES: u32 = 1;
 const MOST_SAMPLES: u32 = 65536;
 
 /// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
-/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
+/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_MEMORY` (MiB of the undrawn world), `AFTERGLOW_HUD` and
+/// `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
 ///
 /// For tests: the device is lost at the submissions that `AFTERGLOW_DEBUG_LOSE_DEVICE` lists, counted from 1, and has
 /// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_NO_WINDOWS` it cannot show pictures itself.
@@ -34,6 +35,9 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
     pathtrace.spp = samples.clamp(1, MOST_SAMPLES);
     pathtrace.seed = parsed(variable, "AFTERGLOW_SEED", number).unwrap_or(pathtrace.seed);
     pathtrace.profile = profile(variable);
+    if let Some(mebibytes) = parsed(variable, "AFTERGLOW_MEMORY", number) {
+        pathtrace.memory_bytes = u64::from(mebibytes) << 20;
+    }
     EngineOptions {
         gpu: GpuOptions {
             device: variable("AFTERGLOW_DEVICE").filter(|name| !name.is_empty()),

@@ -70,7 +70,8 @@ impl Renderer {
             }
         }
         recorded?;
-        self.note(frame, &prepared, understood.map(|understood| understood.report.clone()));
+        let rasterized = tracing.map_or(frame.operations.len(), |tracing| tracing.rasterized);
+        self.note(frame, rasterized, &prepared, understood.map(|understood| understood.report.clone()));
         self.advance();
         for image in &prepared.plan.dropped {
             self.textures.remove(&self.table, *image);
@@ -93,6 +94,7 @@ impl Renderer {
             arena,
             size,
             views: tracing.map_or(&[], |tracing| &tracing.arrangement.views),
+            operations: tracing.map_or(frame.operations.len(), |tracing| tracing.rasterized),
         };
         let plan = planner.plan(frame)?;
         self.reserve(frame, &plan)?;
@@ -348,16 +350,17 @@ impl Renderer {
         Ok(())
     }
 
-    /// Counts what the frame took.
-    fn note(&mut self, frame: &Frame, prepared: &Prepared, scene: Option<SceneReport>) {
+    /// Counts what the frame took, of which so many operations were rasterized.
+    fn note(&mut self, frame: &Frame, rasterized: usize, prepared: &Prepared, scene: Option<SceneReport>) {
+        let draws = || frame.draws().take_while(|(operation, _)| *operation < rasterized);
         let slot = &mut self.slots[self.current];
         let passes = std::mem::take(&mut slot.report.passes);
         let graph = prepared.schedule.graph.report();
         slot.report = FrameReport {
             index: self.swaps,
             passes,
-            draws: self.scratch.commands.len(),
-            indices: frame.draws().map(|(_, draw)| u64::from(draw.index_count)).sum(),
+            draws: draws().count(),
+            indices: draws().map(|(_, draw)| u64::from(draw.index_count)).sum(),
             uploaded_bytes: slot.arena.bytes(),
             pipelines: self.raster.pipelines.len(),
             textures: self.textures.len(),

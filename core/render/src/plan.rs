@@ -117,13 +117,15 @@ pub(crate) struct Planner<'a> {
     pub(crate) size: [u32; 2],
     /// Operations that are views to be traced.
     pub(crate) views: &'a [Range<usize>],
+    /// Operations that come to the device; later ones are draws for rays alone.
+    pub(crate) operations: usize,
 }
 
 impl Planner<'_> {
     /// Makes the frame's images, stages its texels, and sorts its operations.
     pub(crate) fn plan(mut self, frame: &Frame) -> Result<Plan, GpuError> {
         let mut sorter = Sorter::default();
-        for (index, operation) in frame.operations.iter().enumerate() {
+        for (index, operation) in frame.operations.iter().enumerate().take(self.operations) {
             sorter.enter(self.views.iter().position(|view| view.contains(&index)));
             self.operation(&mut sorter, frame, index, operation)?;
         }

@@ -133,7 +133,7 @@ impl Renderer {
     pub fn set_mode(&mut self, mode: Mode, options: &PathtraceOptions) -> Result<(), RenderError> {
         match (mode, &mut self.tracer) {
             (Mode::Raster, _) => self.stop_tracing(),
-            (Mode::Pathtrace, Some(tracer)) => tracer.options = options.clone(),
+            (Mode::Pathtrace, Some(tracer)) => tracer.set_options(options),
             (Mode::Pathtrace, None) => {
                 self.tracer = Tracer::new(&self.gpu, &self.table, options.clone())?;
             }

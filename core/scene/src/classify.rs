@@ -1,25 +1,22 @@
 //! The class of each draw of a frame, by its state and by what the world of the frame is.
 
 use afterglow_gl::frame::{CombineFunction, EnvMode, Format, Frame, Slot, StencilOp, Topology, UnitWords};
-use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
+use glam::{DMat3, DMat4, DVec3, Mat4};
 
 use crate::draws::{DepthUse, DrawFacts, TransformFacts};
 use crate::geometry::{has_varying_colors, mean_color};
 use crate::matrix;
 use crate::objects::Motion;
 use crate::opacity::Mixing;
-use crate::shapes::Piece;
+use crate::shown::Shown;
 use crate::surfaces::Surfaces;
-use crate::tracking::{Track, Tracker};
+use crate::tracking::Track;
 use crate::types::{Class, Verdict};
 use crate::views::{Views, share_of_drawable};
 use crate::world::{Stage, World};
 
 /// Share of the drawable below which a viewport is small.
 const SMALL: f64 = 0.15;
-
-/// One in so many triangles of a view that stand still in the world make it a view of the world.
-const OF_WORLD: u64 = 8;
 
 /// Class and reason.
 type Finding = (Class, &'static str);
@@ -31,6 +28,8 @@ struct Classifier<'a> {
     views: &'a Views,
     world: &'a World,
     surfaces: Surfaces,
+    /// Ground was drawn before everything else.
+    has_ground: bool,
     /// Something of the world is seen in a mirror.
     has_mirrors: bool,
     /// What each view shows.
@@ -50,9 +49,8 @@ pub fn classify<'a>(
     views: &'a Views,
     world: &'a World,
     draws: &'a [DrawFacts<'a>],
-    pieces: &[Option<Piece>],
     tracks: &'a [Option<Track>],
-    tracker: &Tracker,
+    shown: Vec<Shown>,
 ) -> Vec<Verdict> {
     let candidates = draws
         .iter()
@@ -65,8 +63,9 @@ pub fn classify<'a>(
         views,
         world,
         surfaces,
+        has_ground: false,
         has_mirrors: draws.iter().any(|facts| world.mirrors(facts, transforms)),
-        shown: shown(views, draws, pieces, transforms, tracker),
+        shown,
         track: None,
         base: None,
         multiplied: Vec::new(),
@@ -75,45 +74,6 @@ pub fn classify<'a>(
         draws.iter().zip(tracks).map(|(facts, track)| classifier.verdict(facts, track.as_ref())).collect();
     bake_below_lightmaps(frame, draws, &classifier.multiplied, &mut verdicts);
     verdicts
-}
-
-/// Triangles of a view, and those of them that are known to stand still in the world.
-#[derive(Debug, Clone, Copy, Default)]
-struct Shown {
-    all: u64,
-    of_world: u64,
-    /// Something reaches beyond the viewport.
-    overflows: bool,
-}
-
-fn shown(
-    views: &Views,
-    draws: &[DrawFacts],
-    pieces: &[Option<Piece>],
-    transforms: &[TransformFacts],
-    tracker: &Tracker,
-) -> Vec<Shown> {
-    let mut shown = vec![Shown::default(); views.views.len()];
-    let overflows = |facts: &DrawFacts, piece: &Piece| {
-        let transform = &transforms[facts.transform];
-        let Some(perspective) = transform.perspective else { return false };
-        let clip = perspective.projection * transform.eye;
-        let is_outside = |sample: &Vec3| {
-            let at = clip * sample.as_dvec3().extend(1.0);
-            at.x.abs() > 1.2 * at.w || at.y.abs() > 1.2 * at.w
-        };
-        piece.content.samples.iter().any(is_outside)
-    };
-    if views.views.len() > 1 {
-        for (facts, piece) in draws.iter().zip(pieces) {
-            let Some(piece) = piece else { continue };
-            let view = &mut shown[facts.place.view];
-            view.all += u64::from(facts.triangles);
-            view.overflows |= overflows(facts, piece);
-            view.of_world += if tracker.stands_still(piece) { u64::from(facts.triangles) } else { 0 };
-        }
-    }
-    shown
 }
 
 fn may_be_layer(facts: &DrawFacts) -> bool {
@@ -212,10 +172,7 @@ impl<'a> Classifier<'a> {
     fn is_icon(&self, facts: &DrawFacts) -> bool {
         let rect = self.views.views[facts.place.view].rect;
         let is_small = share_of_drawable(rect, self.frame.size) < SMALL;
-        let of_world = self
-            .shown
-            .get(facts.place.view)
-            .is_some_and(|shown| OF_WORLD * shown.of_world > shown.all || shown.overflows);
+        let of_world = self.shown.get(facts.place.view).is_some_and(Shown::is_of_world);
         is_small && self.is_late(facts) && !of_world
     }
 
@@ -287,14 +244,17 @@ impl<'a> Classifier<'a> {
         self.world.mirrors(facts, self.transforms).then_some((Class::OtherView, "mirrored"))
     }
 
-    fn behind_all(&self, facts: &DrawFacts) -> Option<Finding> {
+    fn behind_all(&mut self, facts: &DrawFacts) -> Option<Finding> {
         let [near, far] = facts.depth_range;
         if near >= 0.9 && far >= 0.9 && self.world.stage != Stage::of(facts, self.transforms) {
             return Some((Class::Sky, "far depth range"));
         }
         if self.is_early(facts) && !self.writes_depth(facts) {
-            return Some(match self.is_ground(facts) {
+            let is_ground = self.is_ground(facts);
+            self.has_ground |= is_ground;
+            return Some(match is_ground {
                 true => (Class::Static, "lit, under the view, before the world"),
+                false if self.is_stain_on_ground(facts) => (Class::Layer, "stain on the ground"),
                 false => (Class::Sky, "before the world, writes no depth"),
             });
         }
@@ -312,6 +272,12 @@ impl<'a> Classifier<'a> {
         let words = &self.frame.fixed[facts.draw.fixed as usize].words;
         let is_lit = words.is_lit() && words.global.lights() != 0;
         is_lit && facts.mixing == Mixing::Opaque && self.is_view(facts) && !self.is_carried_along(facts)
+    }
+
+    /// Whether a draw is blended over ground that was drawn before, and small.
+    fn is_stain_on_ground(&self, facts: &DrawFacts) -> bool {
+        let is_blended = !matches!(facts.mixing, Mixing::Opaque | Mixing::CutOut);
+        self.has_ground && is_blended && self.extent(facts) < 0.1 * self.world.extent
     }
 
     /// Whether a draw turns with the world but keeps its place about the eye.
@@ -414,6 +380,7 @@ impl<'a> Classifier<'a> {
             Motion::Carried | Motion::Attached => (Class::Movable, "goes with the camera"),
             Motion::Moves => (Class::Movable, "moves"),
             Motion::Still => (Class::Static, "stands still"),
+            Motion::Unknown if track.is_placed => (Class::Static, "placed as most of the world is"),
             Motion::Unknown => self.by_matrix(facts),
         }
     }

@@ -45,6 +45,10 @@ impl Witness<'_> {
         matrix::similarity(view).filter(|s| s.scale == 1.0).map(|s| s.rigid)
     }
 
+    fn agrees(&self, view: DMat4, focal: f64, pixels: f64) -> bool {
+        agrees(self.samples, view * self.model, self.eye, focal, pixels)
+    }
+
     /// Distance of where a view puts it from where it is, pixels.
     pub fn error(&self, view: DMat4, focal: f64) -> f64 {
         error(self.samples, view * self.model, self.eye, focal)
@@ -60,6 +64,16 @@ pub fn error(samples: &[glam::Vec3], a: DMat4, b: DMat4, focal: f64) -> f64 {
         let shown = a.distance(b) * focal / b.length().max(1e-9);
         // What is not a number agrees with nothing.
         if shown.is_nan() { f64::INFINITY } else { worst.max(shown) }
+    })
+}
+
+/// Whether positions are the same on screen under two matrices, within so many pixels.
+fn agrees(samples: &[glam::Vec3], a: DMat4, b: DMat4, focal: f64, pixels: f64) -> bool {
+    samples.iter().all(|sample| {
+        let sample = sample.as_dvec3();
+        let (a, b) = (a.transform_point3(sample), b.transform_point3(sample));
+        // What is not a number agrees with nothing.
+        a.distance_squared(b) * focal * focal <= pixels * pixels * b.length_squared().max(1e-18)
     })
 }
 
@@ -91,12 +105,20 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
         let trusted = witnesses[b].is_trusted.cmp(&witnesses[a].is_trusted);
         trusted.then(extents[b].total_cmp(&extents[a])).then(a.cmp(&b))
     });
-    let proposals = proposals(witnesses, &order, prior);
-    let mut candidates: Vec<Candidate> =
-        proposals.into_iter().map(|view| weigh(witnesses, &extents, view, prior)).collect();
-    candidates.retain(|candidate| !candidate.supporters.is_empty());
     let trusted =
         witnesses.iter().zip(&extents).filter(|(w, _)| w.is_trusted).map(|(_, extent)| extent).sum();
+    let all: f64 = extents.iter().sum();
+    let mut candidates: Vec<Candidate> = Vec::new();
+    for view in proposals(witnesses, &order, prior) {
+        let candidate = weigh(witnesses, &extents, view, prior);
+        // What most of the world says, and of what is trusted, needs no rival to be compared with.
+        let reach: f64 = candidate.supporters.iter().map(|index| extents[*index]).sum();
+        if candidate.trusted > ENOUGH * trusted && 2.0 * reach > all {
+            return Some(refine(witnesses, &extents, &candidate, prior));
+        }
+        candidates.push(candidate);
+    }
+    candidates.retain(|candidate| !candidate.supporters.is_empty());
     let chosen = choose(&candidates, trusted, prior)?;
     Some(refine(witnesses, &extents, chosen, prior))
 }
@@ -109,7 +131,7 @@ fn proposals(witnesses: &[Witness], order: &[usize], prior: &Prior) -> Vec<DMat4
             break;
         }
         let witness = &witnesses[index];
-        let is_known = |view: &DMat4| witness.error(*view, prior.focal) < SAME * TOLERANCE;
+        let is_known = |view: &DMat4| witness.agrees(*view, prior.focal, SAME * TOLERANCE);
         if !proposals.iter().any(is_known) {
             proposals.extend(witness.proposal());
         }
@@ -122,7 +144,7 @@ fn weigh(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> 
     let (mut space, mut screen) = (Span::<3>::default(), Span::<2>::default());
     let mut meshes = HashSet::new();
     for (index, witness) in witnesses.iter().enumerate() {
-        if witness.error(view, prior.focal) > TOLERANCE {
+        if !witness.agrees(view, prior.focal, TOLERANCE) {
             continue;
         }
         candidate.supporters.push(index);
@@ -212,7 +234,7 @@ fn refine(witnesses: &[Witness], extents: &[f64], chosen: &Candidate, prior: &Pr
     let mut sum = DMat4::ZERO;
     for index in &chosen.supporters {
         let weight = extents[*index];
-        let close = of(index).error(best, prior.focal) <= CLOSE;
+        let close = of(index).agrees(best, prior.focal, CLOSE);
         if let Some(view) = of(index).proposal().filter(|_| close && weight > 0.0) {
             sum += view * weight;
         }
@@ -245,9 +267,9 @@ impl<const N: usize> Default for Span<N> {
 
 impl<const N: usize> Span<N> {
     fn add(&mut self, point: [f64; N]) {
-        for axis in 0..N {
-            self.least[axis] = self.least[axis].min(point[axis]);
-            self.most[axis] = self.most[axis].max(point[axis]);
+        for ((least, most), at) in self.least.iter_mut().zip(&mut self.most).zip(point) {
+            *least = least.min(at);
+            *most = most.max(at);
         }
     }
 

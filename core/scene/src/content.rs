@@ -6,8 +6,8 @@
 
 use std::sync::Arc;
 
-use afterglow_gl::frame::{Draw, Format, Frame, Slot, VertexSource};
-use glam::{DMat4, DVec3, Vec3, Vec4};
+use afterglow_gl::frame::{Draw, Frame, Slot, VertexSource};
+use glam::{Vec3, Vec4};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
@@ -65,11 +65,6 @@ impl Content {
         let (centre, extent, samples) = outermost.finish(others)?;
         let keys = keys.into();
         Some(Content { positions: sum, topology, triangles: count, centre, extent, samples, keys })
-    }
-
-    /// Samples, and the corners of a box about them, seen under a matrix.
-    pub fn seen(&self, eye: DMat4) -> impl Iterator<Item = DVec3> + '_ {
-        self.samples.iter().map(move |p| eye.transform_point3(p.as_dvec3()))
     }
 }
 
@@ -224,11 +219,6 @@ pub fn corners(frame: &Frame, draw: &Draw) -> Vec<Vec3> {
     let positions = Attribute::of(frame, draw, Slot::Position as usize);
     let corner = |i: usize| positions.and_then(|p| p.get(i)).map_or(Vec3::NAN, affine);
     (0..draw.index_count as usize).map(corner).collect()
-}
-
-/// Whether a draw stores positions.
-pub fn has_positions(draw: &Draw) -> bool {
-    !matches!(draw.layout.format(Slot::Position as usize), Format::Absent | Format::Unorm8x4)
 }
 
 #[cfg(test)]

@@ -1,5 +1,8 @@
 //! What is known of the texels of images: whether their alpha can be below one, and their mean colour.
 
+use std::sync::Arc;
+
+use crate::alpha::AlphaMap;
 use afterglow_gl::frame::{
     BaseFormat, Frame, ImageKey, ImageShape, ImageUpload, Operation, Region, TexelFormat,
 };
@@ -11,7 +14,7 @@ use xxhash_rust::xxh3::{xxh3_64, xxh3_64_with_seed};
 const MEAN_SAMPLES: usize = 1024;
 
 /// What level 0 of an image holds.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ImageFacts {
     shape: ImageShape,
     texels: u64,
@@ -19,11 +22,20 @@ pub struct ImageFacts {
     partial: u64,
     mean: Option<Vec4>,
     content: u64,
+    alpha: Option<Arc<AlphaMap>>,
 }
 
 impl ImageFacts {
     fn new(shape: ImageShape) -> ImageFacts {
-        ImageFacts { shape, texels: 0, clear: 0, partial: 0, mean: None, content: shape_hash(&shape) }
+        ImageFacts {
+            shape,
+            texels: 0,
+            clear: 0,
+            partial: 0,
+            mean: None,
+            content: shape_hash(&shape),
+            alpha: None,
+        }
     }
 
     /// Whether every texel's alpha is one.
@@ -34,6 +46,11 @@ impl ImageFacts {
     /// Whether alpha cuts a shape out: hardly any texel lies between clear and opaque.
     pub fn is_cut_out(&self) -> bool {
         self.clear > 0 && self.partial * 4 < self.texels
+    }
+
+    /// Where alpha is one, if it is not everywhere and that is known.
+    pub fn alpha(&self) -> Option<&AlphaMap> {
+        self.alpha.as_deref()
     }
 
     /// Mean colour of the texels as they are stored (sRGB), weighted by alpha, and mean alpha, if any were seen.
@@ -63,6 +80,8 @@ impl ImageFacts {
         self.texels += upload.texels.len() as u64 / 4;
         if has_alpha(self.shape.base_format) {
             self.count_alpha(&upload.texels);
+            let is_whole = covers(&self.shape, region) && self.partial > 0;
+            self.alpha = is_whole.then(|| AlphaMap::of(&self.shape, &upload.texels)).flatten().map(Arc::new);
         }
         self.mean = mean_color(&upload.texels).or(self.mean);
     }
@@ -77,7 +96,9 @@ impl ImageFacts {
         let nearly = texels.chunks_exact(4).filter(|t| (230..255).contains(&t[3])).count() as u64;
         self.clear += clear;
         self.partial += below - clear - nearly;
-        if nearly > 0 && self.clear + self.partial == 0 {
+        let hidden = texels.chunks_exact(4).map(|t| u64::from(255 - t[3])).sum::<u64>();
+        let is_seen_through = hidden * 32 > 255 * (texels.len() as u64 / 4);
+        if nearly > 0 && is_seen_through && self.clear + self.partial == 0 {
             self.partial += nearly;
         }
     }
@@ -108,7 +129,8 @@ fn covers(shape: &ImageShape, region: &Region) -> bool {
 
 fn mean_color(texels: &[u8]) -> Option<Vec4> {
     let count = texels.len() / 4;
-    let step = count.div_ceil(MEAN_SAMPLES).max(1);
+    // Odd, so that samples are not all of one column.
+    let step = count.div_ceil(MEAN_SAMPLES).max(1) | 1;
     let (mut sum, mut alpha, mut samples) = (Vec3::ZERO, 0.0, 0.0);
     for texel in texels.chunks_exact(4).step_by(step) {
         let [r, g, b, a] = [texel[0], texel[1], texel[2], texel[3]].map(|byte| f32::from(byte) / 255.0);
@@ -145,7 +167,7 @@ impl Images {
     }
 
     fn copy(&mut self, from: ImageKey, to: ImageKey) {
-        let Some(source) = self.facts.get(&from).copied() else { return };
+        let Some(source) = self.facts.get(&from).cloned() else { return };
         if let Some(facts) = self.facts.get_mut(&to) {
             *facts = ImageFacts { shape: facts.shape, ..source };
         }
@@ -158,6 +180,16 @@ impl Images {
                 self.facts.remove(image);
             }
         }
+    }
+
+    /// Images by their content; of several with the same content, the first that was made.
+    pub fn by_content(&self) -> HashMap<u64, ImageKey> {
+        let mut images: HashMap<u64, ImageKey> = HashMap::new();
+        for (&image, facts) in &self.facts {
+            let known = images.entry(facts.content).or_insert(image);
+            *known = image.min(*known);
+        }
+        images
     }
 
     /// What is known of an image.
@@ -192,13 +224,14 @@ mod tests {
         let (frame, image) = frame_with(format, texels);
         let mut images = Images::default();
         images.learn(&frame);
-        *images.get(image).unwrap()
+        images.get(image).unwrap().clone()
     }
 
     #[test]
     fn alpha_is_learnt_from_texels() {
         assert!(facts(BaseFormat::Rgba, &[[9, 9, 9, 255]; 4]).is_opaque());
-        assert!(!facts(BaseFormat::Rgba, &[[9, 9, 9, 250]; 4]).is_opaque());
+        assert!(!facts(BaseFormat::Rgba, &[[9, 9, 9, 235]; 4]).is_opaque());
+        assert!(facts(BaseFormat::Rgba, &[[9, 9, 9, 252]; 4]).is_opaque());
         assert!(facts(BaseFormat::Rgb, &[[9, 9, 9, 0]; 4]).is_opaque());
     }
 

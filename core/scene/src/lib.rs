@@ -1,8 +1,10 @@
 //! Scene understanding: draws in; camera, world, lights and the reason for each out.
 //!
-//! This is the first cut: the camera is the commonest modelview matrix, classes follow from the state of
-//! a single frame. The types are those that the whole of scene recovery will fill.
+//! Draws are cut into what belongs together (`shapes`), paired with the objects that are known (`tracking`), and
+//! what most of the world agrees on is the camera (`consensus`); classes follow from what objects did and from the
+//! state of their draws (`classify`). `ARCHITECTURE.md` has the whole of it.
 
+mod alpha;
 mod baked;
 mod classify;
 mod color;
@@ -15,11 +17,13 @@ mod hints;
 mod images;
 mod lights;
 mod matrix;
+mod memory;
 mod objects;
 mod opacity;
 mod profile;
 mod recovery;
 mod shapes;
+mod shown;
 mod sky;
 mod surfaces;
 #[cfg(test)]

@@ -65,6 +65,8 @@ pub struct Object {
     steps: (Step, u32),
     /// The frame in which it was seen to move last.
     moved: Option<u32>,
+    /// It has stood still for long enough, and not moved since.
+    stands: bool,
     carried: bool,
     attached: bool,
 }
@@ -87,11 +89,14 @@ impl Object {
         self.steps = (step, count);
         match step {
             Step::Stood => {
+                self.stands |= count >= SETTLED;
                 if camera_moves && count > EVIDENCE {
                     (self.carried, self.attached) = (false, false);
                 }
             }
-            Step::Moved if has_jumped => self.moved = Some(frame),
+            Step::Moved if has_jumped => {
+                (self.moved, self.stands) = (Some(frame), false);
+            }
             _ if count < EVIDENCE => {}
             Step::Moved => {
                 (self.carried, self.attached) = (false, false);
@@ -100,22 +105,23 @@ impl Object {
             Step::Carried => self.carried = true,
             Step::Attached => self.attached = true,
         }
+        // One frame is no evidence.
+        self.stands &= step == Step::Stood || count < EVIDENCE;
     }
 
     /// What its motion says so far.
     pub fn motion(&self, frame: u32) -> Motion {
         let moves = self.moved.is_some_and(|moved| frame.wrapping_sub(moved) < MOVED);
-        match self.steps {
-            _ if self.carried => Motion::Carried,
-            _ if moves || self.attached => {
-                if self.attached {
-                    Motion::Attached
-                } else {
-                    Motion::Moves
-                }
-            }
-            (Step::Stood, count) if count >= SETTLED => Motion::Still,
-            _ => Motion::Unknown,
+        if self.carried {
+            Motion::Carried
+        } else if self.attached {
+            Motion::Attached
+        } else if moves {
+            Motion::Moves
+        } else if self.stands {
+            Motion::Still
+        } else {
+            Motion::Unknown
         }
     }
 
@@ -161,6 +167,7 @@ impl Objects {
             is_animated: false,
             steps: (Step::Stood, 0),
             moved: None,
+            stands: false,
             carried: false,
             attached: false,
         });
@@ -219,13 +226,25 @@ impl Objects {
         self.objects.iter()
     }
 
+    /// Gives the world other coordinates: every place goes through a transform.
+    pub fn transform(&mut self, by: DMat4, snap: impl Fn(DMat4) -> DMat4) {
+        self.places.clear();
+        for number in 0..self.objects.len() as u32 {
+            let object = &mut self.objects[number as usize];
+            object.before = object.before.map(|before| snap(by * before));
+            if let Some(model) = object.model.take() {
+                self.put(number, snap(by * model));
+            }
+        }
+    }
+
     /// Forgets where all objects are: the world is another. Names stay.
     pub fn forget_places(&mut self) {
         self.places.clear();
         for object in &mut self.objects {
             (object.model, object.before, object.seen) = (None, None, 0);
             (object.steps, object.moved) = ((Step::Stood, 0), None);
-            (object.carried, object.attached) = (false, false);
+            (object.stands, object.carried, object.attached) = (false, false, false);
         }
     }
 

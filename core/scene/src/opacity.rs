@@ -71,6 +71,12 @@ impl Fragment<'_> {
         passes_above && environment.is_some_and(|e| e.alpha_reference >= 0.5)
     }
 
+    /// Whether the draw hides what comes after it: then it is not meant to be seen through.
+    fn fills_depth(&self) -> bool {
+        let depth = self.frame.fixed[self.draw.fixed as usize].raster.depth;
+        depth.is_some_and(|depth| depth.write)
+    }
+
     /// Alpha before texturing: the colour's, or the diffuse material's when lit.
     fn primary_alpha_is_one(&self, cache: &mut ContentCache) -> bool {
         let global = self.frame.fixed[self.draw.fixed as usize].words.global;
@@ -122,7 +128,11 @@ impl Fragment<'_> {
         }
         let bindings = self.frame.bindings.get(self.draw.bindings as usize);
         let image = bindings.and_then(|b| b[index]).and_then(|b| self.images.get(b.image));
-        image.is_some_and(texel_is_one)
+        image.is_some_and(|image| {
+            let shown =
+                || image.alpha().is_some_and(|alpha| alpha.is_opaque_in(self.frame, self.draw, index, unit));
+            texel_is_one(image) || (self.fills_depth() && shown())
+        })
     }
 
     fn combined(

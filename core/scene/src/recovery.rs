@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use afterglow_gl::frame::{Frame, ImageKey};
+use afterglow_gl::frame::{Frame, ImageKey, Rect};
 use glam::{DMat3, Vec3};
 
 use crate::baked::BakedLight;
@@ -12,8 +12,10 @@ use crate::geometry::ContentCache;
 use crate::hints;
 use crate::images::{ImageFacts, Images};
 use crate::lights::{self, Lighting};
+use crate::memory::{Memory, MemoryCounts};
 use crate::profile::{Evidence, Overrides, Profile};
 use crate::shapes::Shapes;
+use crate::shown::shown;
 use crate::sky;
 use crate::tracking::{Track, Tracker};
 use crate::types::{Camera, Class, Deformed, Relighting, Scene, Verdict};
@@ -33,9 +35,12 @@ pub struct Recovery {
     shapes: Shapes,
     tracker: Tracker,
     up: Option<Vec3>,
+    /// The viewport that the world was drawn to.
+    viewport: Option<Rect>,
     said: hints::Places,
     overrides: Overrides,
     baked: BakedLight,
+    memory: Memory,
 }
 
 impl Recovery {
@@ -46,18 +51,38 @@ impl Recovery {
 
     /// A recovery whose findings a profile overrides.
     pub fn with_profile(profile: Option<Arc<Profile>>) -> Recovery {
-        Recovery { overrides: Overrides::new(profile), ..Recovery::default() }
+        let mut recovery = Recovery::default();
+        recovery.overrides = Overrides::new(profile);
+        recovery
+    }
+
+    /// Remembers so many bytes of the world that is not drawn, from now on; nothing of it with 0.
+    pub fn set_memory(&mut self, bytes: u64) {
+        self.memory.set_limit(bytes);
+    }
+
+    /// Keeps what is remembered in a file, for the next run of the program; what the file holds is used where the
+    /// program draws the same world again. A file that cannot be read or written counts as empty.
+    pub fn set_cache(&mut self, path: std::path::PathBuf) {
+        self.memory.set_cache(path);
+    }
+
+    /// How much of the world is remembered.
+    pub fn memory(&self) -> MemoryCounts {
+        self.memory.counts()
     }
 
     /// The same, with light sources recovered from the world's baked light.
-    pub fn with_relighting(self, relighting: Relighting) -> Recovery {
-        Recovery { baked: BakedLight::new(relighting), ..self }
+    pub fn with_relighting(mut self, relighting: Relighting) -> Recovery {
+        self.baked = BakedLight::new(relighting);
+        self
     }
 
     /// Takes note of a frame's texture images. For frames that are not understood; cheap.
     pub fn observe(&mut self, frame: &Frame) {
         self.images.learn(frame);
         self.baked.learn_images(frame);
+        self.memory.observe(frame);
         self.images.forget(frame);
         self.baked.forget_images(frame);
     }
@@ -76,26 +101,32 @@ impl Recovery {
         if self.overrides.takes_found_lights() {
             self.baked.apply(frame, &mut scene, &self.images, self.tracker.epoch);
         }
+        self.memory.remember(frame, &self.images, &mut scene);
         self.images.forget(frame);
         self.baked.forget_images(frame);
         scene
     }
 
     fn scene(&mut self, frame: &mut Frame) -> Scene {
+        if self.tracker.objects.is_full() {
+            self.tracker.begin_anew();
+            self.shapes.clear();
+        }
         let pieces = self.shapes.cut(frame, &self.images, &mut self.tracker.objects, draws::may_be_solid);
         let frame = &*frame;
         let views = Views::split(frame);
         let transforms = draws::transforms(frame);
         let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
-        let Some(mut world) = World::find(frame, &views, &draws, &transforms) else {
+        let Some(mut world) = World::find(frame, &views, &draws, &transforms, self.viewport) else {
             let mut scene = flat_scene(&draws);
             let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: None };
             self.overrides.classes(evidence, &self.images, &mut scene.verdicts);
             return scene;
         };
+        self.viewport = Some(views.views[world.place].rect);
         let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
-        let mut verdicts =
-            classify(frame, &transforms, &views, &world, &draws, &pieces, &tracks, &self.tracker);
+        let shown = shown(&views, &draws, &pieces, &transforms, &self.tracker);
+        let mut verdicts = classify(frame, &transforms, &views, &world, &draws, &tracks, shown);
         let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: Some(world.view) };
         self.overrides.classes(evidence, &self.images, &mut verdicts);
         let background = views.views[world.place].background;
@@ -140,6 +171,9 @@ impl Recovery {
             baked,
             relight: None,
             cut: false,
+            epoch: self.tracker.epoch,
+            unseen: Vec::new(),
+            covered: Vec::new(),
         }
     }
 
@@ -150,6 +184,14 @@ impl Recovery {
         let axis = nearest_axis(upward);
         let kept = self.up.filter(|up| up.dot(upward) > 0.2);
         *self.up.insert(kept.unwrap_or(axis))
+    }
+}
+
+/// What is remembered is written, if it is kept in a file.
+impl Drop for Recovery {
+    fn drop(&mut self) {
+        self.memory.save(&self.images);
+        self.memory.finish();
     }
 }
 

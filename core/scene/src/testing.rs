@@ -1,5 +1,7 @@
 //! Frames built by hand, for tests.
 
+use std::sync::Arc;
+
 use afterglow_gl::frame::*;
 use glam::{Mat4, Vec3};
 
@@ -102,6 +104,13 @@ impl Sketch {
         self.push(source, layout, corners.len() as u32)
     }
 
+    /// Draws part of a retained range; its operation.
+    pub fn draw_retained(&mut self, range: &Arc<RetainedRange>, first_index: u32, count: u32) -> usize {
+        self.frame.retained.push(range.clone());
+        let source = VertexSource::Retained { range: self.frame.retained.len() as u32 - 1, first_index };
+        self.push(source, range.layout, count)
+    }
+
     fn push(&mut self, source: VertexSource, layout: VertexLayout, index_count: u32) -> usize {
         let frame = &mut self.frame;
         let mut transform: Transform = bytemuck::Zeroable::zeroed();
@@ -159,11 +168,12 @@ impl Sketch {
         let region = Region { level: 0, layer: 0, offset: [0; 3], extent };
         let texels = texels.as_flattened().into();
         self.frame.operations.push(Operation::Upload(ImageUpload { image, region, texels }));
-        self.bind(unit, image, base_format);
+        self.sample(unit, image, base_format);
         image
     }
 
-    fn bind(&mut self, unit: usize, image: ImageKey, base_format: BaseFormat) {
+    /// Binds a texture to a unit, modulating.
+    pub fn sample(&mut self, unit: usize, image: ImageKey, base_format: BaseFormat) {
         let sampler = Sampler {
             mag_linear: true,
             min_linear: true,

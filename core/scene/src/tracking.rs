@@ -3,7 +3,7 @@
 //! One rigid transform of the world is free: it is chosen with the first frame, and every object's place is relative to
 //! it. An object that stands still keeps the place at which it was seen first, so nothing drifts.
 
-use glam::{DMat4, DVec3, Vec3};
+use glam::{DMat3, DMat4, DVec3, Vec3};
 use hashbrown::HashMap;
 
 use crate::consensus::{self, Prior, TOLERANCE, Witness};
@@ -15,12 +15,19 @@ use crate::world::World;
 
 /// Frames in which the matrix that most is drawn under must have been the view to be taken for it.
 const BASE_TRUSTED: u32 = 3;
+/// Frames for which a world is so young that it may get other coordinates.
+const YOUNG: u32 = 12;
 /// How much more than what is known what is new must reach for the world to be another.
 const ANOTHER: f64 = 4.0;
 /// How far an object goes in a frame, in its own extents: hardly, as anything may, and as what moves may.
 const AT: f64 = 0.05;
 const NEAR: f64 = 1.0;
 const FAR: f64 = 8.0;
+/// Pixels within which something stands still where matrices are exact, and how many times the usual error that may be.
+const STILL: f64 = 0.1;
+const NOISE: f64 = 10.0;
+/// Objects from which on it can be said how a program sends its world.
+const PLACED: u32 = 16;
 /// Objects of the same content that a draw is compared with.
 const COMPARED: usize = 32;
 
@@ -35,6 +42,8 @@ pub struct Track {
     pub previous: Option<DMat4>,
     /// What its motion says.
     pub motion: Motion,
+    /// It has a matrix of its own, which does not turn it, as most of the standing world has.
+    pub is_placed: bool,
     /// Its vertices move; where its corners were.
     pub animated: Option<Vec<Vec3>>,
 }
@@ -59,6 +68,12 @@ pub struct Tracker {
     velocity: DMat4,
     /// Frames in which what most is drawn under was the view, and in which it was not.
     base: (u32, u32),
+    /// From what most is drawn under to the view, where that has been something else, and for how many frames.
+    offset: Option<(DMat4, u32)>,
+    /// Objects of this frame and of the one before that have a matrix of their own which does not turn them: those that
+    /// stand still, and those that do not.
+    placed: (u32, u32),
+    placed_before: (u32, u32),
     frame: u32,
     /// Counts worlds.
     pub epoch: u64,
@@ -87,7 +102,9 @@ impl Tracker {
         self.velocity = before.map_or(DMat4::IDENTITY, |before| view * matrix::rigid_inverse(before));
         self.view = Some(view);
         world.view = view;
-        let step = CameraStep::new(before.unwrap_or(view), view, world.focal);
+        let still = self.stillness(&claims, view, world.focal);
+        let step = CameraStep::new(before.unwrap_or(view), view, world.focal, still);
+        self.placed_before = std::mem::take(&mut self.placed);
         let mut tracks: Vec<Option<Track>> = Vec::new();
         tracks.resize_with(draws.len(), || None);
         for claim in &claims {
@@ -202,11 +219,47 @@ impl Tracker {
         let view = found.unwrap_or(before);
         let agrees = consensus::error(&world.samples, view, world.base, world.focal) <= TOLERANCE;
         if agrees {
-            self.base.0 += 1
-        } else {
-            self.base.1 += 1
+            self.base.0 += 1;
+            return view;
         }
-        view
+        self.base.1 += 1;
+        let under_base =
+            claims.iter().filter(|claim| claim.is_witness && claim.eye == world.base_eye).count();
+        let witnesses = claims.iter().filter(|claim| claim.is_witness).count();
+        if 2 * under_base > witnesses { self.settle(view, world) } else { view }
+    }
+
+    /// In a world's first frames: where what most is drawn under is the view but for one transform, the world was begun
+    /// with another guess, and gets the program's own coordinates now. Returns the view in the world's coordinates.
+    fn settle(&mut self, view: DMat4, world: &World) -> DMat4 {
+        let offset = matrix::rigid_inverse(view) * world.base;
+        let (known, times) = self.offset.unwrap_or((offset, 0));
+        let (place, known_place) = (offset.w_axis.truncate(), known.w_axis.truncate());
+        let is_same = consensus::turned_alike(offset, known)
+            && place.distance(known_place) <= 1e-4 * place.length().max(1.0);
+        self.offset = Some(if is_same { (offset, times + 1) } else { (offset, 0) });
+        let is_young = self.base.0 + self.base.1 <= YOUNG;
+        if !is_young || !is_same || times + 1 < BASE_TRUSTED {
+            return view;
+        }
+        self.objects.transform(matrix::rigid_inverse(offset), snapped);
+        (self.base, self.offset, self.velocity) = ((BASE_TRUSTED, 0), None, DMat4::IDENTITY);
+        self.epoch += 1;
+        world.base
+    }
+
+    /// Pixels within which what stands still is where it should be, by how exactly that is so in this frame: a program may
+    /// reckon in large numbers.
+    fn stillness(&self, claims: &[Claim], view: DMat4, focal: f64) -> f64 {
+        let witnesses = self.witnesses(claims, false);
+        let trusted = witnesses.iter().filter(|witness| witness.is_trusted);
+        let mut errors: Vec<f64> = trusted.map(|witness| witness.error(view, focal)).collect();
+        if errors.is_empty() {
+            return TOLERANCE;
+        }
+        let middle = errors.len() / 2;
+        let (_, median, _) = errors.select_nth_unstable_by(middle, f64::total_cmp);
+        (NOISE * *median).clamp(STILL, TOLERANCE)
     }
 
     fn witnesses<'a>(&self, claims: &'a [Claim<'a>], base_is_view: bool) -> Vec<Witness<'a>> {
@@ -248,8 +301,15 @@ impl Tracker {
         self.objects.all().any(Object::is_trusted)
     }
 
+    /// Forgets all objects, but not the view.
+    pub fn begin_anew(&mut self) {
+        self.objects.clear();
+        self.epoch += 1;
+    }
+
     fn begin_world(&mut self) {
         self.objects.forget_places();
+        (self.base, self.offset) = ((0, 0), None);
         self.epoch += 1;
     }
 
@@ -284,8 +344,17 @@ impl Tracker {
             Known::Animated(_, corners) => Some(corners.clone()),
             _ => None,
         };
-        let previous = object.before;
-        Some(Track { object: object.id, model, previous, motion: object.motion(frame), animated })
+        let (previous, motion) = (object.before, object.motion(frame));
+        let is_turned = !DMat3::from_mat4(model).abs_diff_eq(DMat3::IDENTITY, 1e-5);
+        match motion {
+            _ if is_turned || again => {}
+            Motion::Still => self.placed.0 += 1,
+            Motion::Unknown => {}
+            _ => self.placed.1 += 1,
+        }
+        let (still, moving) = self.placed_before;
+        let is_placed = !is_turned && still >= PLACED && still >= PLACED * moving / 2;
+        Some(Track { object: object.id, model, previous, motion, is_placed, animated })
     }
 }
 
@@ -364,21 +433,23 @@ struct CameraStep {
     /// How far the eye went, in world space.
     went: DMat4,
     focal: f64,
+    /// Pixels within which something stands still.
+    still: f64,
     moves: bool,
 }
 
 impl CameraStep {
-    fn new(before: DMat4, view: DMat4, focal: f64) -> CameraStep {
+    fn new(before: DMat4, view: DMat4, focal: f64, still: f64) -> CameraStep {
         let world_from_eye = matrix::rigid_inverse(view);
         let went = world_from_eye.w_axis.truncate() - matrix::rigid_inverse(before).w_axis.truncate();
         let moves = !consensus::turned_alike(before, view) || went.length() > 1e-7;
-        CameraStep { before, world_from_eye, view, went: DMat4::from_translation(went), focal, moves }
+        CameraStep { before, world_from_eye, view, went: DMat4::from_translation(went), focal, still, moves }
     }
 
     /// What an object did that is now at `eye`, and was at `model` in the world and at `former` as seen from the eye.
     fn step_of(&self, samples: &[Vec3], eye: DMat4, model: DMat4, former: DMat4, was_there: bool) -> Step {
         let is_at = |expected: DMat4| consensus::error(samples, expected, eye, self.focal) <= TOLERANCE;
-        if is_at(self.view * model) {
+        if consensus::error(samples, self.view * model, eye, self.focal) <= self.still {
             Step::Stood
         } else if was_there && is_at(former) {
             Step::Attached

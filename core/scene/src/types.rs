@@ -4,6 +4,8 @@ use std::fmt;
 
 use glam::{DMat4, Mat4, Vec3};
 
+pub use crate::memory::{Look, MEMORY_BYTES, MISSING_FRAMES, MemoryCounts, Pass, Unseen};
+
 /// The camera that the world was drawn with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
@@ -286,4 +288,11 @@ pub struct Scene {
     pub relight: Option<Relight>,
     /// The program says that nothing of the frames before is seen any more.
     pub cut: bool,
+    /// Counts worlds: another level, or anything that has no place in common with what was drawn before, has another.
+    pub epoch: u64,
+    /// Static parts of the world that the program has drawn before, and in this frame not or not all of. Some of their
+    /// triangles may have been drawn: they lie at exactly the same place.
+    pub unseen: Vec<Unseen>,
+    /// Operations of static draws all of whose triangles are among the unseen ones and look the same there, ascending.
+    pub covered: Vec<u32>,
 }

@@ -1,6 +1,6 @@
 //! Which part of a frame is the world, and the camera that it was drawn with.
 
-use afterglow_gl::frame::{Draw, Frame};
+use afterglow_gl::frame::{Draw, Frame, Rect};
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use hashbrown::HashMap;
 
@@ -11,6 +11,9 @@ use crate::views::{Views, share_of_drawable};
 
 /// Least share of the drawable that the world's viewport covers.
 const LEAST_SHARE: f64 = 0.1;
+
+/// How much more another viewport must show than the one before to be the world's.
+const KEPT: f64 = 4.0;
 
 /// The world of a frame.
 #[derive(Debug, Clone)]
@@ -77,9 +80,10 @@ impl World {
         views: &Views,
         draws: &[DrawFacts],
         transforms: &[TransformFacts],
+        before: Option<Rect>,
     ) -> Option<World> {
         let solid = || draws.iter().filter(|d| d.is_solid(transforms));
-        let view = choose_view(frame, views, solid())?;
+        let view = choose_view(frame, views, solid(), before)?;
         // What a clip plane or the stencil cuts may be the world seen in a mirror.
         let triangles = |masked: bool| -> u64 {
             let counted = solid().filter(|d| d.place.view == view && d.masked == masked);
@@ -152,6 +156,7 @@ fn choose_view<'a>(
     frame: &Frame,
     views: &Views,
     solid: impl Iterator<Item = &'a DrawFacts<'a>>,
+    before: Option<Rect>,
 ) -> Option<usize> {
     let mut triangles = vec![0u64; views.views.len()];
     for facts in solid {
@@ -160,9 +165,13 @@ fn choose_view<'a>(
     let weight = |view: usize| {
         let share = share_of_drawable(views.views[view].rect, frame.size);
         let counts = share >= LEAST_SHARE && !views.views[view].erased;
-        if counts { triangles[view] as f64 * share * share } else { 0.0 }
+        // Of two that are alike, the one stays that was the world before.
+        let kept = if before == Some(views.views[view].rect) { KEPT } else { 1.0 };
+        if counts { triangles[view] as f64 * share * share * kept } else { 0.0 }
     };
-    (0..triangles.len()).filter(|&view| weight(view) > 0.0).max_by(|&a, &b| weight(a).total_cmp(&weight(b)))
+    (0..triangles.len())
+        .filter(|&view| weight(view) > 0.0)
+        .max_by(|&a, &b| weight(a).total_cmp(&weight(b)).then(b.cmp(&a)))
 }
 
 /// The entry of greatest weight; of equals, the one that was drawn first.

@@ -18,12 +18,16 @@ const MOST_VIEWS: usize = 4;
 pub(crate) enum Mark {
     /// Its triangles, to be lit.
     Traced,
+    /// Likewise; rays meet what it covers as part of the world that was drawn before.
+    Covered,
     /// Nothing: it is part of the surface below it.
     Layer,
     /// Nothing: it writes no colour.
     Colorless,
     /// That nothing is traced there.
     Solid,
+    /// Nothing: it is not rasterized at all, for rays alone. The block that it is part of.
+    Unseen(u32),
 }
 
 /// How an operation behaves when the frame is put in order.

@@ -40,6 +40,8 @@ pub(crate) struct TraceInput<'a> {
 pub(crate) struct Surfaces<'a> {
     pub(crate) records: Vec<SurfaceDraw>,
     pub(crate) traced: Vec<Traced<'a>>,
+    /// How many of these the camera sees; they come first.
+    pub(crate) seen: usize,
     /// What each draw of the frame leaves in the visibility buffer.
     pub(crate) marks: Vec<DrawMark>,
     pub(crate) highlights: Highlights,
@@ -112,16 +114,46 @@ impl<'a> Gatherer<'a, '_> {
     fn mark(&mut self, place: &Place<'a>, verdict: &Verdict, mark: Mark) -> Result<DrawMark, GpuError> {
         let is_there = self.input.scratch.commands[place.number].index_count > 0;
         Ok(match mark {
-            Mark::Traced if is_there => self.traced(place, verdict)?,
+            Mark::Traced if is_there => self.traced(place, verdict, true)?,
+            Mark::Covered if is_there => self.traced(place, verdict, false)?,
             Mark::Layer if is_there && place.draw.topology == Topology::Triangles => {
                 self.layer(place, verdict)?
             }
+            Mark::Unseen(block) if is_there => {
+                self.unseen(place, verdict, block)?;
+                DrawMark::Kept
+            }
             Mark::Solid => DrawMark::Written(0),
-            Mark::Traced | Mark::Layer | Mark::Colorless => DrawMark::Kept,
+            Mark::Traced | Mark::Covered | Mark::Layer | Mark::Colorless | Mark::Unseen(_) => DrawMark::Kept,
         })
     }
 
-    fn traced(&mut self, place: &Place<'a>, verdict: &Verdict) -> Result<DrawMark, GpuError> {
+    /// A draw that the camera sees. `is_met` says whether rays meet it, too.
+    fn traced(&mut self, place: &Place<'a>, verdict: &Verdict, is_met: bool) -> Result<DrawMark, GpuError> {
+        let (surface, kind) = self.surface(place, verdict, None)?;
+        if let (false, Some(traced)) = (is_met, self.surfaces.traced.last_mut()) {
+            traced.mask = 0;
+        }
+        self.surfaces.seen = self.surfaces.traced.len();
+        self.surfaces.highlights.note(self.input.frame, place.draw);
+        self.surfaces.kinds.push((place.operation, kind));
+        // Among baked surfaces the colours of what moves are a guess at its light.
+        let is_white = kind == SurfaceKind::BakedMover;
+        Ok(DrawMark::Written((surface + 1) | if is_white { WHITE_ALBEDO } else { 0 }))
+    }
+
+    /// What was drawn in an earlier frame: rays meet it, the camera does not see it.
+    fn unseen(&mut self, place: &Place<'a>, verdict: &Verdict, block: u32) -> Result<(), GpuError> {
+        self.surface(place, verdict, Some(block)).map(|_| ())
+    }
+
+    /// Adds a surface that rays meet. Returns its number, and how light is found for it.
+    fn surface(
+        &mut self,
+        place: &Place<'a>,
+        verdict: &Verdict,
+        block: Option<u32>,
+    ) -> Result<(u32, SurfaceKind), GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let hint = self.input.frame.hint(place.draw);
         let has_material = hint.is_some_and(|hint| hint.material != HintMaterial::default());
@@ -130,8 +162,6 @@ impl<'a> Gatherer<'a, '_> {
         let surface = self.record(place, verdict, kind, meets)?;
         let triangles = self.geometry.read(self.input.frame, place.draw);
         self.layers.add(surface, &triangles);
-        self.surfaces.highlights.note(self.input.frame, place.draw);
-        self.surfaces.kinds.push((place.operation, kind));
         self.surfaces.traced.push(Traced {
             surface,
             draw: place.draw,
@@ -139,10 +169,9 @@ impl<'a> Gatherer<'a, '_> {
             model: displaced(verdict, self.surfaces.traced.len(), self.options),
             mask: mask as u8,
             is_alpha_tested: has_holes(&self.input.frame.fixed[place.draw.fixed as usize]),
+            block,
         });
-        // Among baked surfaces the colours of what moves are a guess at its light.
-        let is_white = kind == SurfaceKind::BakedMover;
-        Ok(DrawMark::Written((surface + 1) | if is_white { WHITE_ALBEDO } else { 0 }))
+        Ok((surface, kind))
     }
 
     /// A layer matters to rays only where it lies on a surface that they meet.

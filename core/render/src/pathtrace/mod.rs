@@ -21,6 +21,7 @@ pub(crate) mod schedule;
 mod slabs;
 mod surfaces;
 mod tracer;
+mod unseen;
 mod world;
 
 pub(crate) use gather::TraceInput;

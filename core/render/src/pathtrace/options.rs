@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afterglow_records::Paint;
-use afterglow_scene::{Class, Profile, Relighting};
+use afterglow_scene::{Class, MEMORY_BYTES, Profile, Relighting};
 use glam::Vec3;
 
 /// What a frame becomes.
@@ -41,6 +41,8 @@ pub struct PathtraceOptions {
     pub profile: Option<Arc<Profile>>,
     /// Whether light sources are recovered from baked light. It holds from the first frame on, like the profile.
     pub relighting: Relighting,
+    /// Bytes of the static world that is remembered when it is not drawn; 0 for none of it.
+    pub memory_bytes: u64,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -58,6 +60,7 @@ impl Default for PathtraceOptions {
             accumulate: true,
             profile: None,
             relighting: Relighting::Background,
+            memory_bytes: MEMORY_BYTES,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

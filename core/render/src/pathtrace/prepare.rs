@@ -48,6 +48,8 @@ pub(crate) struct PreparedTrace {
 pub struct TraceCounts {
     /// Draws that the camera sees by rays' light.
     pub traced_draws: usize,
+    /// Parts of the world that were drawn in earlier frames, and that only rays see.
+    pub unseen: usize,
     /// Instances that rays can meet.
     pub instances: usize,
     /// Triangles that were built into structures for this frame.
@@ -95,7 +97,8 @@ pub(crate) fn prepare(
         views,
         copies: tracer.world.meshes().copies.clone(),
         counts: TraceCounts {
-            traced_draws: surfaces.traced.len(),
+            traced_draws: surfaces.seen,
+            unseen: surfaces.traced.len() - surfaces.seen,
             instances: world.instances as usize,
             built_triangles: tracer.world.meshes().built,
             lights: common.record.light_count as usize,

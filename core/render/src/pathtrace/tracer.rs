@@ -14,6 +14,7 @@ use super::options::PathtraceOptions;
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
 use super::schedule::{ExposureUse, ViewResources};
+use super::unseen;
 use super::world::WorldBuilder;
 use crate::parts::Parts;
 use crate::report::SceneReport;
@@ -32,6 +33,8 @@ pub(crate) struct Understood {
 pub(crate) struct Tracing {
     pub(crate) scene: Scene,
     pub(crate) arrangement: Arrangement,
+    /// Operations of the frame that are rasterized; what comes after them is for rays alone.
+    pub(crate) rasterized: usize,
 }
 
 /// Path tracing of one window.
@@ -73,15 +76,24 @@ impl Tracer {
         Ok(Some(Self::with(gpu, options, pipelines)))
     }
 
+    /// Traces otherwise from now on.
+    pub(crate) fn set_options(&mut self, options: &PathtraceOptions) {
+        self.options = options.clone();
+        self.recovery.set_memory(options.memory_bytes);
+    }
+
     /// For another window of the same renderer.
     pub(crate) fn beside(&self, gpu: &Gpu) -> Self {
         Self::with(gpu, self.options.clone(), self.pipelines.clone())
     }
 
     fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
+        let mut recovery =
+            Recovery::with_profile(options.profile.clone()).with_relighting(options.relighting);
+        recovery.set_memory(options.memory_bytes);
         Self {
-            recovery: Recovery::with_profile(options.profile.clone()).with_relighting(options.relighting),
             options,
+            recovery,
             world: WorldBuilder::new(gpu),
             world_state: ResourceState::SETTLED,
             pipelines,
@@ -102,9 +114,12 @@ impl Tracer {
         }
         let report = SceneReport::of(&scene);
         let arrangement = scene.camera.map(|_| arrange(frame, &scene));
-        let tracing = arrangement.filter(|arrangement| !arrangement.views.is_empty()).map(|arrangement| {
+        let arrangement = arrangement.filter(|arrangement| !arrangement.views.is_empty());
+        let tracing = arrangement.map(|mut arrangement| {
             arrangement.apply(frame, &mut scene);
-            Tracing { scene, arrangement }
+            let rasterized = frame.operations.len();
+            unseen::append(frame, &mut scene, &mut arrangement);
+            Tracing { scene, arrangement, rasterized }
         });
         Understood { report, tracing }
     }

@@ -1,6 +1,6 @@
 //! What rays meet: this frame's traced draws as instances of meshes.
 //!
-//! A draw of a retained range is a mesh of its own, built once. Other draws change, or are sent anew with every
+//! A draw of a retained range is a mesh of its own, built once; so is a block of remembered ones. Other draws change, or are sent anew with every
 //! frame: those that share a matrix are one mesh, built again when any of them has changed.
 
 use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
@@ -28,8 +28,11 @@ pub(crate) struct Traced<'a> {
     pub(crate) draw: &'a Draw,
     pub(crate) triangles: Triangles,
     pub(crate) model: Mat4,
+    /// What rays meet it; 0 if none do.
     pub(crate) mask: u8,
     pub(crate) is_alpha_tested: bool,
+    /// Draws of ranges with the same number are one mesh: they come and go together.
+    pub(crate) block: Option<u32>,
 }
 
 /// The top level and what its hits are numbered by, on the device.
@@ -52,8 +55,8 @@ struct Group {
     members: usize,
 }
 
-/// What groups are found by: the matrix's bits and the mask; the last number counts groups that are full.
-type GroupKey = ([u32; 16], u8, usize);
+/// What groups are found by: the matrix's bits, the mask, the block.
+type GroupKey = ([u32; 16], u8, Option<u32>);
 
 /// Keeps meshes from frame to frame.
 pub(crate) struct WorldBuilder {
@@ -164,7 +167,7 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
     let mut open: HashMap<GroupKey, usize> = HashMap::new();
     for (index, traced) in traced.iter().enumerate() {
         let members = member_count(traced);
-        if traced.triangles.count == 0 || members > MOST_MEMBERS {
+        if traced.triangles.count == 0 || members > MOST_MEMBERS || traced.mask == 0 {
             continue;
         }
         let new = Group {
@@ -174,11 +177,11 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
             draws: vec![index],
             members,
         };
-        if new.is_lasting {
+        if new.is_lasting && traced.block.is_none() {
             groups.push(new);
             continue;
         }
-        let key = (traced.model.to_cols_array().map(f32::to_bits), traced.mask, 0);
+        let key = (traced.model.to_cols_array().map(f32::to_bits), traced.mask, traced.block);
         match open.get(&key).map(|&group| &mut groups[group]) {
             Some(group) if group.members + members <= MOST_MEMBERS => {
                 group.draws.push(index);
@@ -243,6 +246,7 @@ mod tests {
                 },
                 mask: 1,
                 is_alpha_tested: false,
+                block: None,
             })
             .collect();
         let world = builder.build(frame, &traced, DVec3::ZERO, &mut arena).unwrap();

@@ -191,3 +191,71 @@ fn drawables_keep_their_pictures() {
     stage.frame(|_| {});
     assert_valid();
 }
+
+/// A caster that is drawn at first and culled later; the program's camera can turn about.
+fn stand(stage: &mut Stage, draws_slab: bool, turned: f32) {
+    let gl = &mut stage.gl;
+    gl.clear_color(0.1, 0.2, 0.3, 1.0);
+    gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.matrix_mode(GL_PROJECTION);
+    gl.load_identity();
+    gl.frustum(-0.8, 0.8, -0.6, 0.6, 1.0, 50.0);
+    gl.matrix_mode(GL_MODELVIEW);
+    gl.load_identity();
+    gl.rotate(turned, 1.0, 0.0, 0.0);
+    gl.translate(0.0, -0.5, -6.0);
+    gl.rotate(35.0, 1.0, 0.0, 0.0);
+    for capability in [GL_LIGHTING, GL_LIGHT0, GL_DEPTH_TEST] {
+        gl.enable(capability);
+    }
+    gl.light(GL_LIGHT0, GL_POSITION, Params::Floats(&[0.0, 5.0, 0.0, 1.0]));
+    for height in [0.0, 1.5].into_iter().take(if draws_slab { 2 } else { 1 }) {
+        gl.begin(GL_QUADS);
+        gl.normal([0.0, 1.0, 0.0]);
+        let half = if height > 0.0 { 0.8 } else { 4.0 };
+        for [x, z] in [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]] {
+            gl.vertex([x * half, height, z * half, 1.0]);
+        }
+        gl.end();
+    }
+    gl.swap_buffers();
+}
+
+/// Degrees by which the camera looks down so that the slab is above the picture and its shadow is in it.
+const DOWN: f32 = 30.0;
+
+#[test]
+fn what_was_drawn_before_shadows_the_floor_after_it_was_culled() {
+    // Exposure still settles from frame to frame: the camera stays for a while before the slab is culled.
+    let change = |memory: u64| {
+        let mut stage = Stage::new(Mode::Pathtrace, |options| options.memory_bytes = memory);
+        let mut brightness = |draws_slab: bool| {
+            stand(&mut stage, draws_slab, DOWN);
+            stage.picture().chunks(4).map(|pixel| f64::from(pixel[1])).sum::<f64>()
+        };
+        for _ in 0..30 {
+            brightness(true);
+        }
+        let before = brightness(true);
+        brightness(false) / before
+    };
+    let (with, without) = (change(1 << 20), change(0));
+    assert!((with - 1.0).abs() < 0.005, "rays meet the slab as if it were drawn: {with}");
+    assert!(without > 1.02, "without a memory its shadow is gone: {without}");
+    assert_valid();
+}
+
+#[test]
+fn what_is_gone_shadows_nothing() {
+    let mut stage = Stage::new(Mode::Pathtrace, |_| {});
+    for _ in 0..3 {
+        stand(&mut stage, true, 0.0);
+    }
+    let shadowed = stage.brightness(SHADOW);
+    for _ in 0..13 {
+        stand(&mut stage, false, 0.0);
+    }
+    let bright = stage.brightness(SHADOW);
+    assert!(bright > shadowed + 30, "{bright} {shadowed}");
+    assert_valid();
+}

@@ -39,8 +39,8 @@ pub struct Recovery {
     viewport: Option<Rect>,
     said: hints::Places,
     overrides: Overrides,
-    memory: Memory,
     baked: BakedLight,
+    memory: Memory,
 }
 
 impl Recovery {
@@ -81,8 +81,8 @@ impl Recovery {
     /// Takes note of a frame's texture images. For frames that are not understood; cheap.
     pub fn observe(&mut self, frame: &Frame) {
         self.images.learn(frame);
-        self.memory.observe(frame);
         self.baked.learn_images(frame);
+        self.memory.observe(frame);
         self.images.forget(frame);
         self.baked.forget_images(frame);
     }
@@ -98,10 +98,10 @@ impl Recovery {
         self.baked.learn_images(frame);
         let mut scene = self.scene(frame);
         hints::apply(frame, &mut scene, &mut self.said);
-        self.memory.remember(frame, &self.images, &mut scene);
         if self.overrides.takes_found_lights() {
             self.baked.apply(frame, &mut scene, &self.images, self.tracker.epoch);
         }
+        self.memory.remember(frame, &self.images, &mut scene);
         self.images.forget(frame);
         self.baked.forget_images(frame);
         scene

@@ -39,10 +39,10 @@ pub struct PathtraceOptions {
     pub accumulate: bool,
     /// What is known of the program. It holds from the first frame on: later changes count for new windows only.
     pub profile: Option<Arc<Profile>>,
-    /// Bytes of the static world that is remembered when it is not drawn; 0 for none of it.
-    pub memory_bytes: u64,
     /// Whether light sources are recovered from baked light. It holds from the first frame on, like the profile.
     pub relighting: Relighting,
+    /// Bytes of the static world that is remembered when it is not drawn; 0 for none of it.
+    pub memory_bytes: u64,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -59,8 +59,8 @@ impl Default for PathtraceOptions {
             filter: true,
             accumulate: true,
             profile: None,
-            memory_bytes: MEMORY_BYTES,
             relighting: Relighting::Background,
+            memory_bytes: MEMORY_BYTES,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

@@ -34,7 +34,7 @@ const AMBIENT: f32 = 0.04;
 
 impl Room {
     /// Three lamps of different colours among four pillars.
-    pub fn new() -> Room {
+    pub fn with_lamps() -> Room {
         let size = Vec3::new(14.0, 4.0, 10.0);
         let pillar = |x: f32, z: f32| [Vec3::new(x - 0.5, 0.0, z - 0.5), Vec3::new(x + 0.5, size.y, z + 0.5)];
         let pillars = vec![pillar(3.5, 3.0), pillar(10.0, 2.5), pillar(6.5, 6.5), pillar(11.0, 7.0)];

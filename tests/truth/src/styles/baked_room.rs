@@ -21,7 +21,7 @@ pub struct BakedRoom {
 impl BakedRoom {
     /// Loads everything.
     pub fn begin(gl: &mut Client) -> BakedRoom {
-        let room = Room::new();
+        let room = Room::with_lamps();
         gl.set_extent(room.extent());
         BakedRoom {
             walls: gl.texture(&Picture::bricks([0.65, 0.6, 0.55])),

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use afterglow_truth::measure::{Report, measure, measure_played, play_file, write_table, write_wrong};
 use afterglow_truth::oracle::{self, ORACLES, Oracle};
+use afterglow_truth::steady::{watch, write_steadiness};
 use afterglow_truth::styles::{self, Entry, STYLES};
 use anyhow::Context;
 use clap::Parser;
@@ -33,6 +34,9 @@ struct Arguments {
     /// With --oracle: only count its classes in each frame
     #[arg(long, requires = "oracle")]
     counts: bool,
+    /// Say how steadily the scenes of recorded traces are understood, of whatever program
+    #[arg(long, conflicts_with = "oracle")]
+    steady: bool,
     /// Also say for what triangles were taken, and why
     #[arg(long)]
     wrong: bool,
@@ -44,6 +48,13 @@ struct Arguments {
 fn main() -> anyhow::Result<()> {
     let arguments = Arguments::parse();
     let mut out = std::io::stdout().lock();
+    if arguments.steady {
+        for path in &arguments.styles {
+            writeln!(out, "{path}")?;
+            write_steadiness(&mut out, &mut watch(Path::new(path))?)?;
+        }
+        return Ok(());
+    }
     let reports: Vec<Report> = match &arguments.oracle {
         Some(name) => {
             let oracle = oracle::named(name).with_context(|| format!("no oracle '{name}'"))?;

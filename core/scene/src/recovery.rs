@@ -27,6 +27,29 @@ const FALLBACK_SKY: Vec3 = Vec3::new(0.25, 0.3, 0.38);
 /// Share of lit triangles from which a world has lights of its own.
 const LEAST_LIT: f32 = 0.1;
 
+/// Frames of a world with lights, or without, that it takes to change what it is lit by.
+const DAYLIGHT_FRAMES: i32 = 90;
+
+/// Whether a world has lights of its own: a shot in the dark is none, and one frame without is no dusk.
+#[derive(Debug, Default)]
+struct Daylight {
+    epoch: Option<u64>,
+    /// Positive where lights were seen more often of late, at most [`DAYLIGHT_FRAMES`] either way.
+    balance: i32,
+}
+
+impl Daylight {
+    /// Whether a light must be made up.
+    fn is_needed(&mut self, has_lights: bool, epoch: u64) -> bool {
+        let step = if has_lights { 1 } else { -1 };
+        if self.epoch.replace(epoch) != Some(epoch) {
+            self.balance = step * DAYLIGHT_FRAMES;
+        }
+        self.balance = (self.balance + step).clamp(-DAYLIGHT_FRAMES, DAYLIGHT_FRAMES);
+        self.balance < 0
+    }
+}
+
 /// Understands the frames of one context, in order.
 #[derive(Debug, Default)]
 pub struct Recovery {
@@ -35,6 +58,7 @@ pub struct Recovery {
     shapes: Shapes,
     tracker: Tracker,
     up: Option<Vec3>,
+    daylight: Daylight,
     /// The viewport that the world was drawn to.
     viewport: Option<Rect>,
     said: hints::Places,
@@ -157,7 +181,7 @@ impl Recovery {
         let mut sky =
             sky::color(frame, draws, transforms, &verdicts, &self.images, background).unwrap_or(Vec3::ZERO);
         let up = self.up(world);
-        if lights.is_empty() && !baked {
+        if self.daylight.is_needed(!lights.is_empty(), self.tracker.epoch) && !baked {
             lights.push(lights::fallback_sun(up));
             sky = sky.max(FALLBACK_SKY * 0.5);
         }

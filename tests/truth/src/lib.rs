@@ -15,6 +15,7 @@ mod client;
 pub mod kit;
 pub mod measure;
 pub mod oracle;
+pub mod steady;
 pub mod styles;
 mod truth;
 

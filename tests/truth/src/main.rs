@@ -9,6 +9,7 @@ use afterglow_truth::measure::{
     Report, baked, measure, measure_played, play_as, play_file, write_baked, write_table, write_wrong,
 };
 use afterglow_truth::oracle::{self, ORACLES, Oracle};
+use afterglow_truth::steady::{watch, write_steadiness};
 use afterglow_truth::styles::{self, Entry, STYLES};
 use anyhow::Context;
 use clap::Parser;
@@ -36,6 +37,9 @@ struct Arguments {
     /// With --oracle: only count its classes in each frame
     #[arg(long, requires = "oracle")]
     counts: bool,
+    /// Say how steadily the scenes of recorded traces are understood, of whatever program
+    #[arg(long, conflicts_with = "oracle")]
+    steady: bool,
     /// Also say for what triangles were taken, and why
     #[arg(long)]
     wrong: bool,
@@ -52,6 +56,13 @@ fn main() -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     if arguments.relight {
         return chosen(&arguments.styles)?.into_iter().try_for_each(|entry| relight(&mut out, entry));
+    }
+    if arguments.steady {
+        for path in &arguments.styles {
+            writeln!(out, "{path}")?;
+            write_steadiness(&mut out, &mut watch(Path::new(path))?)?;
+        }
+        return Ok(());
     }
     let reports: Vec<Report> = match &arguments.oracle {
         Some(name) => {

@@ -32,6 +32,8 @@ impl Lighting {
             Self::Baked
         } else if scene.lights.iter().any(|light| matches!(light.origin, LightOrigin::Program(_))) {
             Self::Said
+        } else if scene.lights.iter().any(|light| light.origin == LightOrigin::Fallback) {
+            Self::MadeUp
         } else if scene.lights.iter().any(|light| is_programs(light.origin)) {
             Self::Lights
         } else {

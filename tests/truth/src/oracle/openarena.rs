@@ -17,7 +17,8 @@ use crate::truth::{TrueCamera, UNNAMED};
 /// Units of the map, of which a player is 56 tall and runs 320 a second. A demo that is played faster than it is drawn
 /// leaves a third of a second between frames.
 const MOTION: Motion = Motion { least: 0.1, most: 250.0 };
-const WINDOW: [i32; 4] = [0, 0, 640, 480];
+/// Width from which on a viewport is the window's: heads in the status bar have small ones.
+const WINDOW_WIDTH: i32 = 320;
 
 /// Objects that are no entities.
 const WORLD: u64 = UNNAMED;
@@ -51,14 +52,15 @@ pub fn judge(frames: &[Vec<Drawn>]) -> Vec<Judged> {
 
 /// The matrix that a view loads first.
 fn camera(drawn: &[Drawn]) -> Option<TrueCamera> {
-    let first = drawn.iter().find(|drawn| drawn.is_perspective() && drawn.state.viewport == WINDOW)?;
+    let first =
+        drawn.iter().find(|drawn| drawn.is_perspective() && drawn.state.viewport[2] >= WINDOW_WIDTH)?;
     Some(TrueCamera { view: *first.stack.first()?, projection: first.projection })
 }
 
 fn part(drawn: &Drawn, camera: Option<TrueCamera>) -> Part {
     let state = &drawn.state;
     let Some(camera) = camera else { return Part::Interface };
-    if !drawn.is_perspective() || state.viewport != WINDOW {
+    if !drawn.is_perspective() || state.viewport[2] < WINDOW_WIDTH {
         return Part::Interface;
     }
     match state.depth_range {

@@ -5,5 +5,6 @@ mod classes;
 mod hints;
 mod layers;
 mod lights;
+mod motion;
 mod profile;
 mod robustness;

@@ -1,0 +1,125 @@
+//! What is learnt over frames: the camera, objects and what they do.
+
+use glam::{DMat4, Mat4, Vec3};
+
+use crate::Recovery;
+use crate::testing::{Sketch, floor, thing};
+use crate::types::{Class, Scene};
+
+/// A path of a camera about the origin.
+fn view(frame: u32) -> Mat4 {
+    let angle = 0.05 * frame as f32;
+    Mat4::from_translation(Vec3::new(0.0, -2.0, -20.0 - 0.3 * frame as f32)) * Mat4::from_rotation_y(angle)
+}
+
+/// Positions of things that stand apart.
+fn places() -> Vec<Vec3> {
+    (0..6).map(|i| Vec3::new(7.0 * i as f32 - 18.0, 0.0, (5 * i % 7) as f32 * 3.0 - 9.0)).collect()
+}
+
+fn understand(frame: u32, recovery: &mut Recovery, draw: impl Fn(&mut Sketch, Mat4)) -> Scene {
+    let mut sketch = Sketch::new();
+    draw(&mut sketch, view(frame));
+    recovery.understand(&mut sketch.frame)
+}
+
+/// How far the recovered camera has gone between two scenes, beside how far it has in truth.
+fn is_same_step(scenes: [&Scene; 2], frames: [u32; 2]) -> bool {
+    let [a, b] = scenes.map(|scene| scene.camera.unwrap().view);
+    let step = |a: DMat4, b: DMat4| b * a.inverse();
+    step(a, b).abs_diff_eq(step(view(frames[0]).as_dmat4(), view(frames[1]).as_dmat4()), 1e-4)
+}
+
+/// A world in which everything has a matrix of its own, and a thing that moves.
+fn own_matrices(sketch: &mut Sketch, view: Mat4, moving: Vec3) {
+    for (index, place) in places().into_iter().enumerate() {
+        sketch.modelview = view * Mat4::from_translation(place);
+        sketch.draw(&thing(1.0 + 0.25 * index as f32));
+    }
+    sketch.modelview = view * Mat4::from_translation(moving);
+    sketch.draw(&thing(0.8));
+}
+
+#[test]
+fn the_camera_is_what_stands_still_agrees_on() {
+    let mut recovery = Recovery::new();
+    let scenes: Vec<Scene> = (0..20)
+        .map(|frame| {
+            let moving = Vec3::new(0.4 * frame as f32, 1.0, 0.0);
+            understand(frame, &mut recovery, |sketch, view| own_matrices(sketch, view, moving))
+        })
+        .collect();
+    assert!((1..20).all(|frame| is_same_step([&scenes[0], &scenes[frame]], [0, frame as u32])));
+    let classes: Vec<Class> = scenes[19].verdicts.iter().map(|verdict| verdict.class).collect();
+    assert_eq!(classes[..6], [Class::Static; 6]);
+    assert_eq!(classes[6], Class::Movable);
+    // Each keeps its name, and no two have the same.
+    let ids = |scene: &Scene| scene.verdicts.iter().map(|verdict| verdict.object).collect::<Vec<_>>();
+    assert_eq!(ids(&scenes[1]), ids(&scenes[19]));
+    let mut unique = ids(&scenes[19]);
+    unique.sort_unstable();
+    unique.dedup();
+    assert_eq!(unique.len(), 7);
+    // The mover says where it was.
+    let mover = scenes[19].verdicts[6];
+    let went = mover.model.w_axis - mover.previous.unwrap().w_axis;
+    assert!((went.truncate().length() - 0.4).abs() < 1e-3, "{went}");
+}
+
+#[test]
+fn a_thing_carried_before_the_camera_does_not_win_over_the_world() {
+    let mut recovery = Recovery::new();
+    let mut last = None;
+    for frame in 0..12 {
+        let scene = understand(frame, &mut recovery, |sketch, view| {
+            // The car has far more triangles than the ground.
+            let mut car = Vec::new();
+            (0..200).for_each(|i| car.extend(thing(1.0 + 0.002 * i as f32)));
+            sketch.modelview = Mat4::from_translation(Vec3::new(0.0, -1.0, -6.0));
+            sketch.draw(&car);
+            for place in places() {
+                sketch.modelview = view * Mat4::from_translation(place * 8.0);
+                sketch.draw(&floor());
+            }
+        });
+        if let Some((before, former)) = last.replace((scene, frame)) {
+            let (now, _) = last.as_ref().unwrap();
+            assert!(frame < 2 || is_same_step([&before, now], [former, frame]), "frame {frame}");
+        }
+    }
+    let (scene, _) = last.unwrap();
+    assert_eq!(scene.verdicts[0].class, Class::Movable);
+}
+
+#[test]
+fn nothing_drifts() {
+    let mut recovery = Recovery::new();
+    let frame_of = |frame: u32, recovery: &mut Recovery| {
+        understand(frame, recovery, |sketch, view| own_matrices(sketch, view, Vec3::Y))
+    };
+    let first = frame_of(0, &mut recovery);
+    let last = (1..2000).map(|frame| frame_of(frame % 60, &mut recovery)).last().unwrap();
+    assert!(is_same_step([&first, &last], [0, 1999 % 60]));
+}
+
+#[test]
+fn matrices_that_make_no_sense_are_borne() {
+    let mut recovery = Recovery::new();
+    let odd = [
+        Mat4::ZERO,
+        Mat4::from_scale(Vec3::new(-1.0, 1.0, 1.0)),
+        Mat4::from_cols_array(&[f32::NAN; 16]),
+        Mat4::from_scale(Vec3::splat(1e30)),
+        Mat4::from_translation(Vec3::splat(f32::INFINITY)),
+        Mat4::from_scale(Vec3::splat(1e-30)),
+    ];
+    for frame in 0..18 {
+        let scene = understand(frame, &mut recovery, |sketch, view| {
+            own_matrices(sketch, view, Vec3::ZERO);
+            sketch.modelview = view * odd[frame as usize % odd.len()];
+            sketch.draw(&thing(3.0));
+        });
+        let camera = scene.camera.unwrap();
+        assert!(camera.view.is_finite(), "frame {frame}");
+    }
+}

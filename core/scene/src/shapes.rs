@@ -236,8 +236,7 @@ impl Shapes {
 
     /// Cuts all draws that have fresh triangles, and finds what these were before.
     fn parts(&mut self, frame: &Frame, surveyed: &[Surveyed], objects: &Objects) -> Vec<Parts> {
-        let is_planned =
-            |s: &Surveyed| self.plans.contains_key(&s.found.bytes) || s.marks.iter().all(Option::is_some);
+        let is_planned = |s: &Surveyed| s.is_planned || s.marks.iter().all(Option::is_some);
         let mut parts: Vec<Parts> = Vec::with_capacity(surveyed.len());
         for surveyed in surveyed {
             let draw = match frame.operations.get(surveyed.operation) {

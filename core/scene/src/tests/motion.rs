@@ -3,7 +3,7 @@
 use glam::{DMat4, Mat4, Vec3};
 
 use crate::Recovery;
-use crate::testing::{Sketch, floor, thing};
+use crate::testing::{Sketch, floor, thing, verdict};
 use crate::types::{Class, Scene};
 
 /// A path of a camera about the origin.
@@ -122,4 +122,72 @@ fn matrices_that_make_no_sense_are_borne() {
         let camera = scene.camera.unwrap();
         assert!(camera.view.is_finite(), "frame {frame}");
     }
+}
+
+/// Things that stand, one of which is somewhere else in one frame.
+fn shaken(by: Vec3) -> Vec<Class> {
+    let mut recovery = Recovery::new();
+    let class = |frame: u32| {
+        let scene = understand(frame, &mut recovery, |sketch, view| {
+            for (index, place) in places().into_iter().enumerate() {
+                let place = if index == 3 && frame == 12 { place + by } else { place };
+                sketch.modelview = view * Mat4::from_translation(place);
+                sketch.draw(&thing(1.0 + 0.25 * index as f32));
+            }
+        });
+        verdict(&scene, 3).class
+    };
+    (0..24).map(class).collect()
+}
+
+#[test]
+fn what_goes_and_comes_back_has_moved_but_a_tremor_is_none() {
+    assert!(shaken(Vec3::Y * 1e-4)[7..].iter().all(|class| *class == Class::Static));
+    let classes = shaken(Vec3::Y * 0.2);
+    // One frame elsewhere is no evidence, the way back is.
+    assert_eq!(classes[7..13], [Class::Static; 6]);
+    assert_eq!(classes[13..], [Class::Movable; 11]);
+}
+
+#[test]
+fn what_changes_its_vertices_is_dynamic_and_keeps_its_name() {
+    let mut recovery = Recovery::new();
+    let mut names = Vec::new();
+    for frame in 0..10 {
+        let scene = understand(frame, &mut recovery, |sketch, view| {
+            sketch.modelview = view;
+            sketch.world();
+            let mut creature: Vec<Vec3> = Vec::new();
+            (0..8).for_each(|i| {
+                creature.extend(thing(1.0 + 0.1 * (0.7 * frame as f32 + 1.3 * i as f32).sin()))
+            });
+            sketch.modelview = view * Mat4::from_rotation_y(0.3);
+            sketch.draw(&creature);
+        });
+        names.push(scene.verdicts[1].object);
+        if frame > 4 {
+            assert_eq!((scene.verdicts[0].class, scene.verdicts[1].class), (Class::Static, Class::Dynamic));
+            assert_eq!(scene.deformed.len(), 1);
+            assert_eq!(scene.deformed[0].positions.len(), 72);
+        }
+    }
+    assert!(names.iter().all(|name| *name == names[0]), "{names:x?}");
+}
+
+#[test]
+fn a_cut_within_the_world_keeps_it_and_another_world_begins_anew() {
+    let mut recovery = Recovery::new();
+    let mut world = |frame: u32, scale: f32, count: usize| {
+        understand(frame, &mut recovery, |sketch, view| {
+            sketch.modelview = view;
+            let corners: Vec<Vec3> = floor().into_iter().map(|corner| corner * scale).collect();
+            sketch.draw(&corners[..count]);
+        })
+    };
+    let first: Vec<Scene> = (0..6).map(|frame| world(frame, 1.0, 60)).collect();
+    let cut = world(900, 1.0, 60);
+    assert_eq!((cut.epoch, cut.verdicts[0].object), (first[5].epoch, first[5].verdicts[0].object));
+    assert!(is_same_step([&first[5], &cut], [5, 900]));
+    let other = world(901, 2.5, 54);
+    assert_ne!(other.epoch, cut.epoch);
 }

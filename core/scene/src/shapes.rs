@@ -63,6 +63,8 @@ struct Stretch {
     first: u32,
     count: u32,
     known: Known,
+    /// What they are, once it was needed.
+    content: Option<Arc<Content>>,
 }
 
 /// What is known of triangles.
@@ -140,7 +142,7 @@ impl Shapes {
             }
             cuts.push((surveyed.operation, stretches.iter().map(|s| (s.first, s.count)).collect()));
             for stretch in stretches {
-                let content = Content::of(frame, draw, stretch.first, stretch.count).map(Arc::new);
+                let content = stretch.content.or_else(|| content_of(frame, draw, stretch.first, stretch.count));
                 let piece = |content| Piece { content, texture: surveyed.texture, known: stretch.known };
                 pieces.push(content.map(piece));
             }
@@ -249,7 +251,7 @@ impl Shapes {
             let whole = &surveyed.found.content;
             let content = |first: u32, count: u32| match count == whole.triangles {
                 true => Some(whole.clone()),
-                false => Content::of(frame, draw, first, count).map(Arc::new),
+                false => content_of(frame, draw, first, count),
             };
             let fresh = |&(first, count): &(u32, u32)| {
                 let marks = &surveyed.marks[first as usize..(first + count) as usize];
@@ -292,7 +294,7 @@ impl Shapes {
     ) -> Vec<Stretch> {
         let (content, marks) = (&surveyed.found.content, &surveyed.marks);
         if content.keys.is_empty() {
-            return vec![Stretch { first: 0, count: content.triangles, known: Known::Mesh }];
+            return vec![Stretch { first: 0, count: content.triangles, known: Known::Mesh, content: None }];
         }
         if let Some((plan, _)) = self.plans.get(&surveyed.found.bytes).filter(|_| surveyed.is_planned) {
             return plan.clone();
@@ -301,6 +303,11 @@ impl Shapes {
         if parts.is_empty() {
             push_known(&mut stretches, 0, marks);
             merge(&mut stretches, content.triangles);
+            if stretches.len() > 1 {
+                for stretch in &mut stretches {
+                    stretch.content = content_of(frame, draw, stretch.first, stretch.count);
+                }
+            }
             self.plans.insert(surveyed.found.bytes, (stretches.clone(), self.frame));
             return stretches;
         }
@@ -377,6 +384,10 @@ impl Shapes {
         }
         Known::Object(object)
     }
+}
+
+fn content_of(frame: &Frame, draw: &Draw, first: u32, count: u32) -> Option<Arc<Content>> {
+    Content::of(frame, draw, first, count).map(Arc::new)
 }
 
 /// The first unit's texture.
@@ -463,7 +474,7 @@ fn push(stretches: &mut Vec<Stretch>, first: u32, count: u32, known: Known) {
             _ => {}
         }
     }
-    stretches.push(Stretch { first, count, known });
+    stretches.push(Stretch { first, count, known, content: None });
 }
 
 /// Of too many stretches one, which belongs to what most triangles belong to.
@@ -475,7 +486,7 @@ fn merge(stretches: &mut Vec<Stretch>, triangles: u32) {
                 Known::Animated(object, _) => Known::Animated(object, Vec::new()),
                 other => other,
             };
-            *stretches = vec![Stretch { first: 0, count: triangles, known }];
+            *stretches = vec![Stretch { first: 0, count: triangles, known, content: None }];
         }
     }
 }

@@ -35,7 +35,7 @@ pub struct Witness<'a> {
     pub model: DMat4,
     /// Names its mesh.
     pub mesh: u64,
-    /// It stood still whenever the camera moved.
+    /// It has stood still for some frames.
     pub is_trusted: bool,
 }
 
@@ -49,7 +49,7 @@ impl Witness<'_> {
         agrees(self.samples, view * self.model, self.eye, focal, pixels)
     }
 
-    /// Distance of where a view puts it from where it is, pixels.
+    /// Largest distance of where a view puts it from where it is, pixels.
     pub fn error(&self, view: DMat4, focal: f64) -> f64 {
         error(self.samples, view * self.model, self.eye, focal)
     }
@@ -68,7 +68,7 @@ pub fn error(samples: &[glam::Vec3], a: DMat4, b: DMat4, focal: f64) -> f64 {
 }
 
 /// Whether positions are the same on screen under two matrices, within so many pixels.
-fn agrees(samples: &[glam::Vec3], a: DMat4, b: DMat4, focal: f64, pixels: f64) -> bool {
+pub fn agrees(samples: &[glam::Vec3], a: DMat4, b: DMat4, focal: f64, pixels: f64) -> bool {
     samples.iter().all(|sample| {
         let sample = sample.as_dvec3();
         let (a, b) = (a.transform_point3(sample), b.transform_point3(sample));
@@ -164,8 +164,7 @@ fn weigh(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> 
     candidate
 }
 
-/// The candidate that is the camera.
-/// `trusted` is what all trusted witnesses reach.
+/// The candidate that is the camera; `trusted` is what all trusted witnesses reach.
 fn choose<'a>(candidates: &'a [Candidate], trusted: f64, prior: &Prior) -> Option<&'a Candidate> {
     let weight = |c: &Candidate| {
         let faith = if trusted > 0.0 { 1.0 + 8.0 * c.trusted / trusted } else { 1.0 };

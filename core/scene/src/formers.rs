@@ -48,6 +48,22 @@ pub struct Former {
 }
 
 impl Former {
+    /// As it is drawn in this frame, nothing known of what it was before.
+    fn of(content: &Content, frame: u32) -> Former {
+        Former {
+            centre: content.centre,
+            extent: content.extent,
+            samples: content.samples,
+            first_key: content.keys.first().copied().unwrap_or(0),
+            frame,
+            streak: 0,
+            is_taken: false,
+            rests: (0, content.positions),
+            object: None,
+            corners: Vec::new(),
+        }
+    }
+
     /// Whether it has been where it is for long.
     pub fn has_settled(&self, content: &Content) -> bool {
         self.rests.0 > RESTED && self.rests_at(content)
@@ -61,6 +77,10 @@ impl Former {
 
 /// Topology, texture, number of triangles.
 type Kind = (u64, u64, u32);
+
+fn kind_of(content: &Content, texture: u64) -> Kind {
+    (content.topology, texture, content.triangles)
+}
 
 /// Whether a shape has changed by more than its place.
 fn has_deformed(before: &[Vec3; SAMPLES], now: &[Vec3; SAMPLES]) -> bool {
@@ -96,19 +116,19 @@ impl Formers {
 
     /// Whether what is of the same kind was animated: a model of which there are several, in other poses.
     pub fn expect(&self, content: &Content, texture: u64) -> bool {
-        content.triangles > SPRITE && self.kinds.contains(&(content.topology, texture, content.triangles))
+        content.triangles > SPRITE && self.kinds.contains(&kind_of(content, texture))
     }
 
     /// Whether something of the same kind was there.
     pub fn have(&self, content: &Content, texture: u64) -> bool {
-        self.before.contains_key(&(content.topology, texture, content.triangles))
+        self.before.contains_key(&kind_of(content, texture))
     }
 
     /// Finds what fresh triangles were before, the nearest first. `is_drawn` tells whether a triangle is in this frame.
     pub fn take(&mut self, fresh: Vec<(&Content, u64, &mut Option<Former>)>, is_drawn: impl Fn(u64) -> bool) {
         let mut pairs: Vec<(f32, usize, Kind, usize)> = Vec::new();
         for (index, (content, texture, _)) in fresh.iter().enumerate() {
-            let kind = (content.topology, *texture, content.triangles);
+            let kind = kind_of(content, *texture);
             let Some(formers) = self.before.get(&kind) else { continue };
             let may_be = |former: &Former| {
                 let is_same = content.keys.first() == Some(&former.first_key);
@@ -169,28 +189,20 @@ impl Formers {
         let streak = before.map_or(0, |former| former.streak + if deforms { STREAK } else { 1 });
         if self.noted < MOST {
             self.noted += 1;
-            let kind = (content.topology, texture, content.triangles);
+            let kind = kind_of(content, texture);
+            let rests =
+                before.filter(|former| former.rests_at(content)).map_or(0, |former| former.rests.0 + 1);
             self.now.entry(kind).or_default().push(Former {
-                centre: content.centre,
-                extent: content.extent,
-                samples: content.samples,
-                first_key: content.keys.first().copied().unwrap_or(0),
-                frame: now,
                 streak,
-                is_taken: false,
-                rests: match before {
-                    Some(former) if former.rests.1 == content.positions => {
-                        (former.rests.0 + 1, content.positions)
-                    }
-                    _ => (0, content.positions),
-                },
+                rests: (rests, content.positions),
                 object: before.and_then(|former| former.object),
                 corners,
+                ..Former::of(content, now)
             });
         }
         let counts = streak >= STREAK;
         if counts && self.kinds.len() < MOST_KINDS {
-            self.kinds.insert((content.topology, texture, content.triangles));
+            self.kinds.insert(kind_of(content, texture));
         }
         counts
     }
@@ -198,28 +210,17 @@ impl Formers {
     /// Notes a draw that is known: it may change in a later frame.
     pub fn note_known(&mut self, content: &Content, texture: u64, object: u32, now: u32) {
         let is_shape = content.triangles >= SHAPE;
-        let kind = (content.topology, texture, content.triangles);
+        let kind = kind_of(content, texture);
         if !is_shape || self.noted >= MOST {
             return;
         }
         self.noted += 1;
-        self.now.entry(kind).or_default().push(Former {
-            centre: content.centre,
-            extent: content.extent,
-            samples: content.samples,
-            first_key: content.keys.first().copied().unwrap_or(0),
-            frame: now,
-            streak: 0,
-            is_taken: false,
-            rests: (0, content.positions),
-            object: Some(object),
-            corners: Vec::new(),
-        });
+        self.now.entry(kind).or_default().push(Former { object: Some(object), ..Former::of(content, now) });
     }
 
     /// Says what the stretch that was noted last belongs to.
     pub fn assign(&mut self, content: &Content, texture: u64, object: u32) {
-        let kind = (content.topology, texture, content.triangles);
+        let kind = kind_of(content, texture);
         if let Some(former) = self.now.get_mut(&kind).and_then(|formers| formers.last_mut()) {
             former.object = Some(object);
         }

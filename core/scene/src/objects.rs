@@ -83,7 +83,7 @@ impl Object {
         cube(self.centre, self.extent, model)
     }
 
-    /// Takes note of what it did. `camera_moves` tells whether that says anything.
+    /// Takes note of what it did. Standing says less while the camera rests, one step more if it `has_jumped`.
     pub fn step(&mut self, step: Step, camera_moves: bool, has_jumped: bool, frame: u32) {
         let count = if self.steps.0 == step { self.steps.1.saturating_add(1) } else { 1 };
         self.steps = (step, count);
@@ -226,12 +226,14 @@ impl Objects {
         self.objects.iter()
     }
 
-    /// Gives the world other coordinates: every place goes through a transform.
+    /// Gives the world other coordinates: every place goes through a transform. What motion was seen by the guess before
+    /// is no evidence.
     pub fn transform(&mut self, by: DMat4, snap: impl Fn(DMat4) -> DMat4) {
         self.places.clear();
         for number in 0..self.objects.len() as u32 {
             let object = &mut self.objects[number as usize];
             object.before = object.before.map(|before| snap(by * before));
+            object.moved = None;
             if let Some(model) = object.model.take() {
                 self.put(number, snap(by * model));
             }

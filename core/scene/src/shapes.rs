@@ -142,7 +142,8 @@ impl Shapes {
             }
             cuts.push((surveyed.operation, stretches.iter().map(|s| (s.first, s.count)).collect()));
             for stretch in stretches {
-                let content = stretch.content.or_else(|| content_of(frame, draw, stretch.first, stretch.count));
+                let content =
+                    stretch.content.or_else(|| content_of(frame, draw, stretch.first, stretch.count));
                 let piece = |content| Piece { content, texture: surveyed.texture, known: stretch.known };
                 pieces.push(content.map(piece));
             }

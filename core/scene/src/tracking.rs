@@ -217,7 +217,7 @@ impl Tracker {
             return found.filter(|_| base_is_view).unwrap_or(world.base);
         }
         let view = found.unwrap_or(before);
-        let agrees = consensus::error(&world.samples, view, world.base, world.focal) <= TOLERANCE;
+        let agrees = consensus::agrees(&world.samples, view, world.base, world.focal, TOLERANCE);
         if agrees {
             self.base.0 += 1;
             return view;
@@ -448,8 +448,8 @@ impl CameraStep {
 
     /// What an object did that is now at `eye`, and was at `model` in the world and at `former` as seen from the eye.
     fn step_of(&self, samples: &[Vec3], eye: DMat4, model: DMat4, former: DMat4, was_there: bool) -> Step {
-        let is_at = |expected: DMat4| consensus::error(samples, expected, eye, self.focal) <= TOLERANCE;
-        if consensus::error(samples, self.view * model, eye, self.focal) <= self.still {
+        let is_at = |expected: DMat4| consensus::agrees(samples, expected, eye, self.focal, TOLERANCE);
+        if consensus::agrees(samples, self.view * model, eye, self.focal, self.still) {
             Step::Stood
         } else if was_there && is_at(former) {
             Step::Attached

@@ -68,6 +68,8 @@ fn part(drawn: &Drawn, camera: Option<TrueCamera>) -> Part {
     let Some(camera) = camera.filter(|_| drawn.is_perspective()) else { return Part::Interface };
     let is_placed = drawn.modelview() != camera.view;
     match (state.has(GL_DEPTH_TEST), state.depth_mask) {
+        // The light of shots and of what bursts is added over the ground, in discs.
+        (false, true) if drawn.texture() == GROUND && drawn.blending().is_some() => Part::Track,
         (false, true) if drawn.texture() == GROUND => Part::Ground,
         // As far as the sky, and yet at a place: nobody can say.
         (false, true) if MOUNTAINS.contains(&drawn.texture()) => Part::Unknown,

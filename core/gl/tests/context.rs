@@ -2,34 +2,16 @@
 
 #![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
 
-use std::sync::{Arc, Mutex};
+mod recorder;
+
+use std::sync::Arc;
 
 use afterglow_api::constants::*;
-use afterglow_gl::backend::{Backend, End, Reply, Request};
+use afterglow_gl::backend::End;
 use afterglow_gl::frame::{Draw, Frame, Operation, Slot, Topology, VertexSource};
 use afterglow_gl::texture::{ImageDefinition, SubImage};
-use afterglow_gl::{Context, Params, Pointer, SharedNames};
-
-#[derive(Clone, Default)]
-struct Recorder(Arc<Mutex<Vec<(Frame, End)>>>);
-
-impl Backend for Recorder {
-    fn submit(&mut self, frame: Frame, end: End) {
-        self.0.lock().unwrap().push((frame, end));
-    }
-
-    fn answer(&mut self, so_far: Frame, _: Request) -> Reply {
-        self.submit(so_far, End::Continued);
-        Reply::Unavailable
-    }
-}
-
-fn context() -> (Context, Recorder) {
-    let recorder = Recorder::default();
-    let mut context = Context::new(Box::new(recorder.clone()), SharedNames::default());
-    context.set_drawable(64, 48);
-    (context, recorder)
-}
+use afterglow_gl::{Context, Params, Pointer};
+use recorder::{Recorder, context};
 
 /// The frame that the calls made.
 fn frame(calls: impl FnOnce(&mut Context)) -> Frame {

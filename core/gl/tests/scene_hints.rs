@@ -2,34 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
 
-use std::sync::{Arc, Mutex};
+mod recorder;
 
 use afterglow_api::constants::*;
-use afterglow_gl::backend::{Backend, End, Reply, Request};
+use afterglow_gl::Context;
 use afterglow_gl::frame::{Frame, Hint, HintClass, HintLightShape};
 use afterglow_gl::texture::ImageDefinition;
-use afterglow_gl::{Context, SharedNames};
-
-#[derive(Clone, Default)]
-struct Recorder(Arc<Mutex<Vec<Frame>>>);
-
-impl Backend for Recorder {
-    fn submit(&mut self, frame: Frame, _: End) {
-        self.0.lock().unwrap().push(frame);
-    }
-
-    fn answer(&mut self, so_far: Frame, _: Request) -> Reply {
-        self.submit(so_far, End::Continued);
-        Reply::Unavailable
-    }
-}
-
-fn context() -> (Context, Recorder) {
-    let recorder = Recorder::default();
-    let mut context = Context::new(Box::new(recorder.clone()), SharedNames::default());
-    context.set_drawable(64, 48);
-    (context, recorder)
-}
+use recorder::context;
 
 /// The frame that the calls made, which are without error.
 fn frame(calls: impl FnOnce(&mut Context)) -> Frame {
@@ -37,7 +16,7 @@ fn frame(calls: impl FnOnce(&mut Context)) -> Frame {
     calls(&mut context);
     assert_eq!(context.get_error(), GL_NO_ERROR);
     context.swap_buffers();
-    recorder.0.lock().unwrap().pop().unwrap()
+    recorder.0.lock().unwrap().pop().unwrap().0
 }
 
 fn triangle(gl: &mut Context) {
@@ -140,7 +119,7 @@ fn what_is_said_of_a_frame_ends_with_it() {
     gl.swap_buffers();
     assert_eq!(gl.get_error(), GL_NO_ERROR);
     let frames = recorder.0.lock().unwrap();
-    let said = &frames[0].scene_hints;
+    let said = &frames[0].0.scene_hints;
     assert_eq!(said.view.unwrap()[3], [1.0, 2.0, 3.0, 1.0]);
     assert!(said.cut);
     let ids: Vec<_> = said.lights.iter().map(|light| light.id).collect();
@@ -148,7 +127,7 @@ fn what_is_said_of_a_frame_ends_with_it() {
     assert_eq!(said.lights[0].shape, HintLightShape::Point { position: [4.0; 3], radius: 0.1 });
     let direction = [0.0, -1.0, 0.0];
     assert_eq!(said.lights[1].shape, HintLightShape::Directional { direction, angle: 0.5 });
-    assert!(frames[1].scene_hints.is_empty());
+    assert!(frames[1].0.scene_hints.is_empty());
 }
 
 #[test]
@@ -168,8 +147,8 @@ fn parts_of_a_frame_are_joined() {
     triangle(&mut gl);
     gl.swap_buffers();
     let mut frames = std::mem::take(&mut *recorder.0.lock().unwrap());
-    let mut later = frames.pop().unwrap();
-    let mut whole = frames.pop().unwrap();
+    let (mut later, _) = frames.pop().unwrap();
+    let (mut whole, _) = frames.pop().unwrap();
     whole.append(&mut later);
     let objects: Vec<_> = hints(&whole).iter().map(|hint| hint.map(|hint| hint.object)).collect();
     assert_eq!(objects, [Some(1), Some(1), Some(2), None]);
@@ -256,6 +235,6 @@ fn nothing_is_said_between_begin_and_end() {
         triangle(&mut gl);
         gl.swap_buffers();
         let frames = recorder.0.lock().unwrap();
-        assert!(frames[0].hints.is_empty() && frames[0].scene_hints.is_empty());
+        assert!(frames[0].0.hints.is_empty() && frames[0].0.scene_hints.is_empty());
     }
 }

@@ -20,11 +20,13 @@ mod matrix;
 mod memory;
 mod objects;
 mod opacity;
+mod pairing;
 mod profile;
 mod recovery;
 mod shapes;
 mod shown;
 mod sky;
+mod stretches;
 mod surfaces;
 #[cfg(test)]
 mod testing;

@@ -3,13 +3,13 @@
 //! One rigid transform of the world is free: it is chosen with the first frame, and every object's place is relative to
 //! it. An object that stands still keeps the place at which it was seen first, so nothing drifts.
 
-use glam::{DMat3, DMat4, DVec3, Vec3};
-use hashbrown::HashMap;
+use glam::{DMat3, DMat4, Vec3};
 
 use crate::consensus::{self, Prior, TOLERANCE, Witness};
 use crate::draws::{DrawFacts, TransformFacts};
 use crate::matrix;
 use crate::objects::{Motion, Object, Objects, Step};
+use crate::pairing::{NEAR, Pairing, Sight};
 use crate::shapes::{Known, Piece};
 use crate::world::World;
 
@@ -19,18 +19,11 @@ const BASE_TRUSTED: u32 = 3;
 const YOUNG: u32 = 12;
 /// How much more than what is known what is new must reach for the world to be another.
 const ANOTHER: f64 = 4.0;
-/// How far an object goes in a frame, in its own extents: hardly, as anything may, and as what moves may.
-const AT: f64 = 0.05;
-const NEAR: f64 = 1.0;
-const FAR: f64 = 8.0;
 /// Pixels within which something stands still where matrices are exact, and how many times the usual error that may be.
 const STILL: f64 = 0.1;
 const NOISE: f64 = 10.0;
 /// Objects from which on it can be said how a program sends its world.
 const PLACED: u32 = 16;
-/// Objects of the same content that a draw is compared with.
-const COMPARED: usize = 32;
-
 /// What is known of a draw that was followed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
@@ -49,13 +42,17 @@ pub struct Track {
 }
 
 /// A draw that is followed.
-struct Claim<'a> {
-    draw: usize,
-    piece: &'a Piece,
-    eye: DMat4,
+pub struct Claim<'a> {
+    /// Its number among the draws.
+    pub draw: usize,
+    /// What it draws.
+    pub piece: &'a Piece,
+    /// Object to eye space.
+    pub eye: DMat4,
     /// It may tell where the camera is.
-    is_witness: bool,
-    object: Option<u32>,
+    pub is_witness: bool,
+    /// The number of its object, once that is known.
+    pub object: Option<u32>,
 }
 
 /// Follows objects and the camera.
@@ -91,10 +88,14 @@ impl Tracker {
         self.frame = self.frame.wrapping_add(1).max(1);
         let mut claims: Vec<Claim> = claims(draws, pieces, transforms, world);
         let expected = self.view.map_or(world.base, |view| self.velocity * view);
-        self.pair(&mut claims, &Sight::new(expected, world, true));
+        let pairing =
+            Pairing { objects: &self.objects, frame: self.frame, sight: Sight::new(expected, world, true) };
+        pairing.pair(&mut claims);
         let before = self.view;
         let view = self.find_view(&claims, world);
-        self.pair(&mut claims, &Sight::new(view, world, false));
+        let pairing =
+            Pairing { objects: &self.objects, frame: self.frame, sight: Sight::new(view, world, false) };
+        pairing.pair(&mut claims);
         for claim in &mut claims {
             let piece = claim.piece;
             claim.object.get_or_insert_with(|| self.objects.add(&piece.content, piece.texture));
@@ -124,85 +125,6 @@ impl Tracker {
             Known::Mesh => self.objects.of_content(&piece.content).iter().any(stands),
             Known::Animated(..) => false,
         }
-    }
-
-    /// Pairs draws with objects, as seen under a view: first those that are where they must be, then the others.
-    fn pair(&self, claims: &mut [Claim], sight: &Sight) {
-        let mut taken = Taken::default();
-        let mut cursors: HashMap<(u64, u32), usize> = HashMap::new();
-        for is_last in [false, true] {
-            for claim in claims.iter_mut().filter(|claim| !is_last || claim.object.is_none()) {
-                let content = &claim.piece.content;
-                let cursor = cursors.entry((content.positions, content.triangles)).or_default();
-                claim.object = match claim.piece.known {
-                    Known::Animated(object, _) => Some(object),
-                    Known::Object(object) => {
-                        self.nearest(claim, Some(object), sight, &taken, cursor, is_last)
-                    }
-                    Known::Mesh => self.nearest(claim, None, sight, &taken, cursor, is_last),
-                };
-                taken.add(claim.object, claim.eye);
-            }
-        }
-    }
-
-    /// Of the objects that a piece may be, the nearest to a place that is free. Programs draw what is alike in the same
-    /// order each time: the search begins after the one that was found last.
-    fn nearest(
-        &self,
-        claim: &Claim,
-        own: Option<u32>,
-        sight: &Sight,
-        taken: &Taken,
-        cursor: &mut usize,
-        is_last: bool,
-    ) -> Option<u32> {
-        let content = &claim.piece.content;
-        let alike = self.objects.of_content(content);
-        let place = sight.world_from_eye * claim.eye;
-        let (centre, extent) = (content.centre.as_dvec3(), f64::from(content.extent) * scale_of(place));
-        let centre_now = place.transform_point3(centre);
-        let (start, count) = (*cursor, alike.len());
-        let in_order = (0..count.min(COMPARED)).map(|step| (start + step) % count);
-        let in_order = in_order.map(|at| (at + 1, alike[at]));
-        let near = (count > COMPARED).then(|| self.objects.near(content, place)).into_iter().flatten();
-        let first = own.into_iter().chain(near).map(|object| (start, object));
-        let mut best: Option<(f64, u32)> = None;
-        for (next, object) in first.chain(in_order) {
-            if taken.has(object, claim.eye) {
-                continue;
-            }
-            let Some(known) = self.objects.get(object) else { continue };
-            let away =
-                self.expected(known, centre).map_or(f64::MAX, |expected| expected.distance(centre_now));
-            if away <= AT * extent {
-                *cursor = next;
-                return Some(object);
-            }
-            if best.is_none_or(|(least, _)| away < least) {
-                best = Some((away, object));
-            }
-        }
-        let (away, object) = best.filter(|_| is_last)?;
-        (sight.is_rough || self.may_be(object, away, extent, centre, sight)).then_some(object)
-    }
-
-    /// Where a point of an object is if it goes on as before, world space.
-    fn expected(&self, object: &Object, point: DVec3) -> Option<DVec3> {
-        let now = object.model?.transform_point3(point);
-        let before = object.before.filter(|_| object.seen == self.frame.wrapping_sub(1));
-        Some(before.map_or(now, |before| 2.0 * now - before.transform_point3(point)))
-    }
-
-    /// Whether an object may have gone so far. What stands still does not go, unless it is missed where it was.
-    fn may_be(&self, object: u32, away: f64, extent: f64, centre: DVec3, sight: &Sight) -> bool {
-        let Some(object) = self.objects.get(object) else { return false };
-        let Some(model) = object.model else { return true };
-        let was_there = object.seen == self.frame.wrapping_sub(1);
-        let moves = object.motion(self.frame) != Motion::Still;
-        (away <= NEAR * extent && (was_there || moves))
-            || (moves && was_there && away <= FAR * extent)
-            || (was_there && sight.shows(model.transform_point3(centre)))
     }
 
     /// The view of this frame.
@@ -378,7 +300,7 @@ fn claims<'a>(
 }
 
 /// About how much a matrix scales.
-fn scale_of(matrix: DMat4) -> f64 {
+pub fn scale_of(matrix: DMat4) -> f64 {
     matrix.x_axis.truncate().length()
 }
 
@@ -386,43 +308,6 @@ fn scale_of(matrix: DMat4) -> f64 {
 fn snapped(model: DMat4) -> DMat4 {
     let reach = model.w_axis.truncate().length();
     if reach < 1e-4 && model.abs_diff_eq(DMat4::IDENTITY, 2e-6) { DMat4::IDENTITY } else { model }
-}
-
-/// Objects that are taken, and the matrix under which each is seen.
-#[derive(Default)]
-struct Taken(HashMap<u32, DMat4>);
-
-impl Taken {
-    fn add(&mut self, object: Option<u32>, eye: DMat4) {
-        if let Some(object) = object {
-            self.0.entry(object).or_insert(eye);
-        }
-    }
-
-    /// Whether an object is somewhere else. Parts of one may be drawn apart, under the same matrix.
-    fn has(&self, object: u32, eye: DMat4) -> bool {
-        self.0.get(&object).is_some_and(|other| *other != eye)
-    }
-}
-
-/// What is in sight.
-struct Sight {
-    clip_from_world: DMat4,
-    world_from_eye: DMat4,
-    /// The view is only expected.
-    is_rough: bool,
-}
-
-impl Sight {
-    fn new(view: DMat4, world: &World, is_rough: bool) -> Sight {
-        let clip_from_world = world.perspective.projection * view;
-        Sight { clip_from_world, world_from_eye: matrix::rigid_inverse(view), is_rough }
-    }
-
-    fn shows(&self, point: DVec3) -> bool {
-        let clip = self.clip_from_world * point.extend(1.0);
-        clip.w > 0.0 && clip.x.abs() < clip.w && clip.y.abs() < clip.w
-    }
 }
 
 /// The camera's step from the frame before.

@@ -18,6 +18,9 @@ use crate::world::{Stage, World};
 /// Share of the drawable below which a viewport is small.
 const SMALL: f64 = 0.15;
 
+/// Share of the ground's extent below which something blended over it is a stain on it.
+const STAIN: f64 = 0.01;
+
 /// Class and reason.
 type Finding = (Class, &'static str);
 
@@ -28,8 +31,8 @@ struct Classifier<'a> {
     views: &'a Views,
     world: &'a World,
     surfaces: Surfaces,
-    /// Ground was drawn before everything else.
-    has_ground: bool,
+    /// Diagonal of the ground that was drawn before everything else; 0 without.
+    ground: f64,
     /// Something of the world is seen in a mirror.
     has_mirrors: bool,
     /// What each view shows.
@@ -63,7 +66,7 @@ pub fn classify<'a>(
         views,
         world,
         surfaces,
-        has_ground: false,
+        ground: 0.0,
         has_mirrors: draws.iter().any(|facts| world.mirrors(facts, transforms)),
         shown,
         track: None,
@@ -251,7 +254,9 @@ impl<'a> Classifier<'a> {
         }
         if self.is_early(facts) && !self.writes_depth(facts) {
             let is_ground = self.is_ground(facts);
-            self.has_ground |= is_ground;
+            if is_ground {
+                self.ground = self.ground.max(self.extent(facts));
+            }
             return Some(match is_ground {
                 true => (Class::Static, "lit, under the view, before the world"),
                 false if self.is_stain_on_ground(facts) => (Class::Layer, "stain on the ground"),
@@ -267,17 +272,19 @@ impl<'a> Classifier<'a> {
     }
 
     /// Whether a draw that everything else covers is a surface at a place nevertheless: it moves with the world
-    /// and is lit by its lights, which no sky is. Programs that cannot see below their ground draw it so.
+    /// and is drawn with lighting, be it ambient alone, which no sky is. Programs that cannot see below their ground draw it so.
     fn is_ground(&self, facts: &DrawFacts) -> bool {
         let words = &self.frame.fixed[facts.draw.fixed as usize].words;
-        let is_lit = words.is_lit() && words.global.lights() != 0;
-        is_lit && facts.mixing == Mixing::Opaque && self.is_view(facts) && !self.is_carried_along(facts)
+        words.is_lit()
+            && facts.mixing == Mixing::Opaque
+            && self.is_view(facts)
+            && !self.is_carried_along(facts)
     }
 
     /// Whether a draw is blended over ground that was drawn before, and small.
     fn is_stain_on_ground(&self, facts: &DrawFacts) -> bool {
         let is_blended = !matches!(facts.mixing, Mixing::Opaque | Mixing::CutOut);
-        self.has_ground && is_blended && self.extent(facts) < 0.1 * self.world.extent
+        is_blended && self.extent(facts) < STAIN * self.ground
     }
 
     /// Whether a draw turns with the world but keeps its place about the eye.

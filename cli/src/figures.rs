@@ -43,6 +43,8 @@ pub struct Relight {
     scale: f32,
     /// The scene has these lights.
     used: bool,
+    /// Their light takes the place of the bake.
+    replaces: bool,
 }
 
 impl From<&SceneRelight> for Relight {
@@ -58,6 +60,7 @@ impl From<&SceneRelight> for Relight {
             rays: found.rays,
             scale: found.scale,
             used: found.is_used,
+            replaces: found.replaces,
         }
     }
 }
@@ -71,7 +74,11 @@ impl fmt::Display for Relight {
             self.patches,
             self.residual,
             100.0 * self.explained,
-            if self.used { "used" } else { "not used" }
+            match (self.replaces, self.used) {
+                (true, _) => "in the place of the bake",
+                (false, true) => "beside the bake",
+                (false, false) => "not used",
+            }
         )
     }
 }

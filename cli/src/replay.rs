@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use afterglow_player::{Player, TraceSummary};
 use afterglow_render::{Displaced, Paint, PathtraceOptions};
-use afterglow_scene::Relighting;
+use afterglow_scene::{Relighting, Replacing};
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -57,6 +57,9 @@ pub struct Arguments {
     /// Do not search for the light sources that baked light comes from
     #[arg(long)]
     no_relight: bool,
+    /// What becomes of light that is baked into the world, where its sources are found
+    #[arg(long, value_enum, value_name = "HOW", default_value = "auto", env = "AFTERGLOW_BAKED")]
+    pub baked: Baked,
     /// Show what the light is made of instead of the picture
     #[arg(long, value_enum, value_name = "VIEW")]
     paint: Option<View>,
@@ -105,6 +108,7 @@ impl Arguments {
         options.filter = !self.no_filter;
         // Frames wait for it, so that a trace always gives the same pictures.
         options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
+        options.replacing = self.baked.replacing();
         options.profile = self.profile.load_for_trace(&self.trace)?;
         options.memory_bytes = u64::from(self.memory) << 20;
         options.paint = self.paint.map_or(Paint::Picture, View::paint);
@@ -116,6 +120,37 @@ impl Arguments {
     /// Whether anybody will read how long the passes took.
     fn wants_timing(&self) -> bool {
         self.stats || self.json.is_some()
+    }
+}
+
+/// What becomes of baked light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Baked {
+    /// Traced light takes its place where its sources explain it well
+    Auto,
+    /// It stays, darkened by the shadows of what moves
+    Keep,
+    /// Traced light takes its place however well it is explained
+    Replace,
+}
+
+impl Baked {
+    /// As recovery takes it.
+    fn replacing(self) -> Replacing {
+        match self {
+            Baked::Auto => Replacing::WhereGood,
+            Baked::Keep => Replacing::Never,
+            Baked::Replace => Replacing::Always,
+        }
+    }
+
+    /// As AFTERGLOW_BAKED has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Baked::Auto => "auto",
+            Baked::Keep => "keep",
+            Baked::Replace => "replace",
+        }
     }
 }
 

@@ -12,6 +12,7 @@ use clap::Args;
 
 use crate::failure::Failure;
 use crate::libdir;
+use crate::replay::Baked;
 use crate::options::{DeviceArguments, Mode, ProfileArguments};
 
 /// Arguments of `run`.
@@ -29,6 +30,9 @@ pub struct Arguments {
     /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none (pathtrace)
     #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
     memory: u32,
+    /// What becomes of light that is baked into the world, where its sources are found
+    #[arg(long, value_enum, value_name = "HOW", default_value = "auto", env = "AFTERGLOW_BAKED")]
+    baked: Baked,
     /// Record what the program calls, in apitrace's format. Further processes of the program record into FILE.1.trace
     /// and so on
     #[arg(long, value_name = "FILE", env = "AFTERGLOW_RECORD")]
@@ -89,7 +93,8 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
         .env("SDL_VIDEO_DRIVER", "x11")
         .env("AFTERGLOW_SPP", arguments.spp.to_string())
         .env("AFTERGLOW_SEED", arguments.seed.to_string())
-        .env("AFTERGLOW_MEMORY", arguments.memory.to_string());
+        .env("AFTERGLOW_MEMORY", arguments.memory.to_string())
+        .env("AFTERGLOW_BAKED", arguments.baked.name());
     if let Some(mode) = arguments.mode {
         command.env("AFTERGLOW_MODE", mode.name());
     }

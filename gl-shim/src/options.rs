@@ -6,7 +6,7 @@ use std::sync::{Arc, Once};
 use afterglow_engine::EngineOptions;
 use afterglow_gpu::{Faults, GpuOptions};
 use afterglow_render::{Mode, PathtraceOptions};
-use afterglow_scene::{Profile, ProfileChoice};
+use afterglow_scene::{Profile, ProfileChoice, Replacing};
 use tracing::level_filters::LevelFilter;
 
 /// Samples a pixel and frame unless asked otherwise: a program that is played cannot wait for more.
@@ -15,8 +15,8 @@ const LIVE_SAMPLES: u32 = 1;
 const MOST_SAMPLES: u32 = 65536;
 
 /// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
-/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_MEMORY` (MiB of the undrawn world), `AFTERGLOW_HUD` and
-/// `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
+/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_MEMORY` (MiB of the undrawn world), `AFTERGLOW_BAKED`
+/// (`auto`, `keep` or `replace` baked light), `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
 ///
 /// For tests: the device is lost at the submissions that `AFTERGLOW_DEBUG_LOSE_DEVICE` lists, counted from 1, and has
 /// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_NO_WINDOWS` it cannot show pictures itself.
@@ -38,6 +38,7 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
     if let Some(mebibytes) = parsed(variable, "AFTERGLOW_MEMORY", number) {
         pathtrace.memory_bytes = u64::from(mebibytes) << 20;
     }
+    pathtrace.replacing = parsed(variable, "AFTERGLOW_BAKED", replacing).unwrap_or(pathtrace.replacing);
     EngineOptions {
         gpu: GpuOptions {
             device: variable("AFTERGLOW_DEVICE").filter(|name| !name.is_empty()),
@@ -92,6 +93,15 @@ fn mode(value: &str) -> Option<Mode> {
     match value {
         "raster" => Some(Mode::Raster),
         "pathtrace" => Some(Mode::Pathtrace),
+        _ => None,
+    }
+}
+
+fn replacing(value: &str) -> Option<Replacing> {
+    match value {
+        "auto" => Some(Replacing::WhereGood),
+        "keep" => Some(Replacing::Never),
+        "replace" => Some(Replacing::Always),
         _ => None,
     }
 }

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use afterglow_gl::frame::Frame;
-use afterglow_scene::{Recovery, Relighting};
+use afterglow_scene::{Recovery, Relighting, Replacing};
 use serde::Serialize;
 
 use super::Arguments;
@@ -36,7 +36,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let proposal = arguments.propose.as_ref().map(|_| Proposal::default());
     let mut inspection = Inspection { arguments, painter, proposal, report: Report::default() };
     let profile = arguments.profile.load_for_trace(&arguments.trace)?;
-    let recovery = Recovery::with_profile(profile).with_relighting(Relighting::AtOnce);
+    let recovery = Recovery::with_profile(profile).with_relighting(Relighting::AtOnce, Replacing::WhereGood);
     let played = play::play(&arguments.trace, frames.end, recovery, &mut inspection);
     let Inspection { painter, proposal, mut report, .. } = inspection;
     if let Some(painter) = painter {

@@ -49,6 +49,9 @@ shared_struct! {
         pub normal_map: u32,
         pub metallic_roughness_map: u32,
         pub emission_map: u32,
+        /// What of its colour is baked light that traced light takes the place of: a `BAKE_` constant.
+        pub bake: u32,
+        pub padding: u32,
     }
 }
 
@@ -137,7 +140,10 @@ shared_struct! {
         pub color: u32,
         /// Bindless index of the albedo as a storage image.
         pub albedo: u32,
-        /// Unused.
+        /// What baked light is multiplied by to be light as sources give it.
+        pub bake_scale: f32,
+        /// How much of what surfaces then reflect reaches others; below 0 where baked light is not replaced.
+        pub bounce: [f32; 3],
         pub padding: u32,
         pub light_count: u32,
         /// Samples a pixel of this frame.
@@ -280,6 +286,17 @@ pub const MEMBER_SHIFT: u32 = 20;
 
 /// Beside a surface's number in the push constants of its draw: its vertices' colours are light and not paint.
 pub const WHITE_ALBEDO: u32 = 1 << 31;
+/// Likewise: from here on a `BAKE_` constant, in [`BAKE_MASK`].
+pub const BAKE_SHIFT: u32 = 28;
+pub const BAKE_MASK: u32 = 7 << BAKE_SHIFT;
+/// No part of a draw's colour is baked light. That of a texture unit is, by the unit's number and 1.
+pub const BAKE_NONE: u32 = 0;
+/// All of a draw's colour is, and it multiplies the surface below.
+pub const BAKE_LAYER: u32 = 5;
+/// Likewise, by twice its colour.
+pub const BAKE_DOUBLED_LAYER: u32 = 6;
+/// The vertices' colours are.
+pub const BAKE_COLORS: u32 = 7;
 
 /// Of a [`SurfaceDraw`]: the program names no such map.
 pub const NO_MAP: u32 = u32::MAX;

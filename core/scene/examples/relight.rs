@@ -7,13 +7,13 @@ use std::time::{Duration, Instant};
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
 use afterglow_player::{Player, TraceSummary};
-use afterglow_scene::{Recovery, Relight, Relighting, Scene};
+use afterglow_scene::{Recovery, Relight, Relighting, Replacing, Scene};
 use afterglow_trace::TraceReader;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let path = std::env::args().nth(1).ok_or("which trace?")?;
     let factory = move |_| -> Box<dyn Backend> {
-        let recovery = Recovery::new().with_relighting(Relighting::AtOnce);
+        let recovery = Recovery::new().with_relighting(Relighting::AtOnce, Replacing::WhereGood);
         Box::new(Understanding { recovery, frames: 0, last: None })
     };
     let sizes = TraceSummary::open(&path)?.sizes();

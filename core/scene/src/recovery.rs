@@ -18,7 +18,7 @@ use crate::shapes::Shapes;
 use crate::shown::shown;
 use crate::sky;
 use crate::tracking::{Track, Tracker};
-use crate::types::{Camera, Class, Deformed, Relighting, Scene, Verdict};
+use crate::types::{Camera, Class, Deformed, Relighting, Replacing, Scene, Verdict};
 use crate::views::Views;
 use crate::world::World;
 
@@ -96,9 +96,10 @@ impl Recovery {
         self.memory.counts()
     }
 
-    /// The same, with light sources recovered from the world's baked light.
-    pub fn with_relighting(mut self, relighting: Relighting) -> Recovery {
-        self.baked = BakedLight::new(relighting);
+    /// The same, with light sources recovered from the world's baked light. A profile can decide otherwise whether they
+    /// take its place.
+    pub fn with_relighting(mut self, relighting: Relighting, replacing: Replacing) -> Recovery {
+        self.baked = BakedLight::new(relighting, self.overrides.replacing().unwrap_or(replacing));
         self
     }
 
@@ -124,6 +125,7 @@ impl Recovery {
         hints::apply(frame, &mut scene, &mut self.said);
         if self.overrides.takes_found_lights() {
             self.baked.apply(frame, &mut scene, &self.images, self.tracker.epoch);
+            self.overrides.relit(&mut scene);
         }
         self.memory.remember(frame, &self.images, &mut scene);
         self.images.forget(frame);
@@ -194,6 +196,7 @@ impl Recovery {
             ambient,
             baked,
             relight: None,
+            relit: None,
             cut: false,
             epoch: self.tracker.epoch,
             unseen: Vec::new(),

@@ -4,6 +4,7 @@ use std::fmt;
 
 use glam::{DMat4, Mat4, Vec3};
 
+pub use crate::baked::{BakedInto, Bakes, Relit};
 pub use crate::memory::{Look, MEMORY_BYTES, MISSING_FRAMES, MemoryCounts, Pass, Unseen};
 
 /// The camera that the world was drawn with.
@@ -190,6 +191,18 @@ pub enum Relighting {
     AtOnce,
 }
 
+/// Whether traced light takes the place of baked light on what stands still.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Replacing {
+    /// It does not: what is baked stays, with moving things' shadows in it.
+    Never,
+    /// Where the sources that were found explain it well, or a profile has lights.
+    #[default]
+    WhereGood,
+    /// Wherever sources were found.
+    Always,
+}
+
 /// How well the sources of baked light were found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Relight {
@@ -213,6 +226,8 @@ pub struct Relight {
     pub scale: f32,
     /// It is good enough: the scene has these lights.
     pub is_used: bool,
+    /// Their light takes the place of the bake.
+    pub replaces: bool,
 }
 
 /// Triangles of a frame by class.
@@ -286,6 +301,8 @@ pub struct Scene {
     pub baked: bool,
     /// How well the sources of baked light were found, once they were searched.
     pub relight: Option<Relight>,
+    /// The lights take the place of baked light; None where it is shown as it is.
+    pub relit: Option<Relit>,
     /// The program says that nothing of the frames before is seen any more.
     pub cut: bool,
     /// Counts worlds: another level, or anything that has no place in common with what was drawn before, has another.

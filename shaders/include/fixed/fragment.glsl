@@ -10,11 +10,11 @@
 
 // Texturing, colour sum and fog.
 //
-// `projective` has a bit for each unit whose q may not be 1, `clamps` three bits a unit (see
+// Units that `left_out` has a bit of are passed by. `projective` has a bit for each unit whose q may not be 1, `clamps` three bits a unit (see
 // clamped_coordinates); `environments` is where units look up their constant colour.
 vec4 shade_fragment(
     GlobalState state, UnitState units[TEXTURE_UNITS], DrawPush push, EnvironmentTable environments, uint clamps,
-    uint projective, vec4 primary, vec3 secondary, vec4 coordinates[TEXTURE_UNITS], float fog_coordinate
+    uint projective, uint left_out, vec4 primary, vec3 secondary, vec4 coordinates[TEXTURE_UNITS], float fog_coordinate
 ) {
     vec4 texels[TEXTURE_UNITS];
     [[unroll]] for (uint i = 0u; i < TEXTURE_UNITS; ++i) {
@@ -23,8 +23,9 @@ vec4 shade_fragment(
     }
     vec4 color = primary;
     [[unroll]] for (uint i = 0u; i < TEXTURE_UNITS; ++i) {
-        color = apply_environment(units[i], texels, i, color, primary,
+        vec4 own = apply_environment(units[i], texels, i, color, primary,
             environments.entries[push.environment].env_color[i]);
+        color = chosen((left_out & (1u << i)) != 0u, color, own);
     }
     if (state.color_sum || (state.lighting && state.separate_specular)) {
         color.rgb = min(color.rgb + secondary, 1.0);

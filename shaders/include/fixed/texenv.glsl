@@ -71,6 +71,12 @@ vec4 combine_environment(
     return vec4(color, mix(alpha, color.x, state.combine_rgb == COMBINE_DOT3_RGBA));
 }
 
+// Whether nothing that comes before a unit shows in its colour.
+bool hides_previous(UnitState state) {
+    return state.env_mode == ENV_MODE_REPLACE
+        || (state.env_mode == ENV_MODE_COMBINE && state.combine_rgb == COMBINE_REPLACE);
+}
+
 // The colour after one unit. `texels` are those of all units.
 vec4 apply_environment(
     UnitState state, vec4 texels[TEXTURE_UNITS], uint unit, vec4 previous, vec4 primary, vec4 constant

@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 224 bytes
+struct SurfaceDraw { // 232 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -27,6 +27,8 @@ struct SurfaceDraw { // 224 bytes
     uint normal_map;
     uint metallic_roughness_map;
     uint emission_map;
+    uint bake;
+    uint padding;
 };
 #endif
 
@@ -56,7 +58,7 @@ struct LightSource { // 80 bytes
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 224 bytes
+struct ViewRecord { // 240 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
@@ -73,6 +75,8 @@ struct ViewRecord { // 224 bytes
     uint visibility;
     uint color;
     uint albedo;
+    float bake_scale;
+    vec3 bounce;
     uint padding;
     uint light_count;
     uint samples;

@@ -126,5 +126,11 @@ struct AccumulatePush { // 64 bytes
 #define ACCUMULATE_CLEAR 5u
 
 #define WHITE_ALBEDO 2147483648u
+#define BAKE_SHIFT 28u
+#define BAKE_MASK 1879048192u
+#define BAKE_NONE 0u
+#define BAKE_LAYER 5u
+#define BAKE_DOUBLED_LAYER 6u
+#define BAKE_COLORS 7u
 
 #endif

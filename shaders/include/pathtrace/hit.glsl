@@ -33,8 +33,9 @@ vec4 unit_texel(ViewRecord view, DrawReference draw, uint triangle, vec3 weights
         coordinates.xy / coordinates.w, level);
 }
 
-// The colour after texturing of `primary`, in sRGB as the program has it.
-vec4 textured_color(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, vec4 primary) {
+// The colour after texturing of `primary`, in sRGB as the program has it. A unit whose texture is baked light is passed
+// by, its texel is `light`.
+vec4 textured_color(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, vec4 primary, inout vec3 light) {
     vec4 texels[TEXTURE_UNITS] = vec4[TEXTURE_UNITS](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     EnvironmentTable environments = EnvironmentTable(FrameTable(view.frame).entries[0].environments);
     vec4 color = primary;
@@ -45,8 +46,13 @@ vec4 textured_color(ViewRecord view, DrawReference draw, uint triangle, vec3 wei
         if (state.target == 0u) {
             continue;
         }
+        bool is_light = draw.it.bake == unit + 1u;
         if (i < TEXTURE_UNITS) {
             texels[unit] = unit_texel(view, draw, triangle, weights, state, unit, RAY_TEXELS);
+        } else if (is_light) {
+            float scale = state.env_mode == ENV_MODE_COMBINE ? float(1u << state.scale_rgb) : 1.0;
+            light *= texels[unit].rgb * scale;
+            color = hides_previous(state) ? vec4(1.0) : color;
         } else {
             vec4 constant = environments.entries[draw.it.environment].env_color[unit];
             color = apply_environment(state, texels, unit, color, primary, constant);
@@ -84,18 +90,31 @@ vec4 blended(uint word, vec4 source, vec4 destination) {
     return vec4(clamp(color, 0.0, 1.0), destination.a);
 }
 
-// The program's colour of a surface without lighting, all its layers together, in sRGB. Materials are not in it.
-vec3 unlit_color(ViewRecord view, uint draw, uint triangle, vec3 weights) {
+// The program's colour of a surface without lighting, all its layers together, in sRGB. Materials are not in it. Baked
+// light that traced light takes the place of is not in it either, but in `light`: white where there is none.
+vec3 unlit_color(ViewRecord view, uint draw, uint triangle, vec3 weights, out vec3 light, out bool has_light) {
     vec4 color = vec4(1.0);
+    light = vec3(1.0);
+    has_light = false;
     [[dont_unroll]] for (uint n = 0u; n < MOST_LAYERS; ++n) {
         DrawReference layer = surface_draw(view, draw);
         GlobalState state = global_state(layer);
+        uint bake = layer.it.bake;
+        has_light = has_light || bake != BAKE_NONE;
         vec4 primary = vec4(1.0);
         if (!state.lighting) {
             primary = clamp(vertex_color(view, layer, state, triangle, weights), 0.0, 1.0);
         }
-        vec4 own = textured_color(view, layer, triangle, weights, primary);
-        color = n == 0u ? own : blended(layer.it.blend, own, color);
+        if (bake == BAKE_COLORS) {
+            light *= primary.rgb;
+            primary.rgb = vec3(1.0);
+        }
+        vec4 own = textured_color(view, layer, triangle, weights, primary, light);
+        if (bake == BAKE_LAYER || bake == BAKE_DOUBLED_LAYER) {
+            light *= own.rgb * (bake == BAKE_LAYER ? 1.0 : 2.0);
+        } else {
+            color = n == 0u ? own : blended(layer.it.blend, own, color);
+        }
         if (layer.it.next_layer == draw) {
             break;
         }

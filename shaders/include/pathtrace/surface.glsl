@@ -30,6 +30,11 @@ uint surface_ray_mask(SurfaceTexel surface) {
     return surface.emission >> 28;
 }
 
+// Whether traced light takes the place of baked light.
+bool is_relit(ViewRecord view) {
+    return view.bounce.x >= 0.0;
+}
+
 // Three components of [0, 1] and a byte above them.
 uint pack_color(vec3 color, uint byte) {
     return packUnorm4x8(vec4(color, 0.0)) | byte << 24;

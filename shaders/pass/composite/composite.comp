@@ -51,12 +51,19 @@ vec3 painted(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indir
     }
 }
 
+// Paint times light as the program multiplies them, both as they are stored: where the sources are right, traced light
+// shows what baked light did.
+vec3 relit(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indirect) {
+    return min(unpack_color(surface.albedo) * (light.direct + indirect) / view.bake_scale, 1.0);
+}
+
 vec3 composited(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 indirect, vec3 program, uvec2 pixel) {
     uint kind = surface_kind(surface);
     uint draw = texelFetch(visibility_images[view.visibility], ivec2(pixel), 0).x - 1u;
     vec3 scale = kind == SURFACE_LIT ? vec3(ExposureBuffer(view.exposure).entries[0].scale)
         : kind == SURFACE_BAKED_MOVER ? mover_scale(view, draw) : vec3(1.0);
     vec3 shown = srgb_from_linear(min(radiance(surface, light, indirect, linear_from_srgb(program)) * scale, 1.0));
+    shown = kind == SURFACE_LIT && is_relit(view) ? relit(view, surface, light, indirect) : shown;
     if (kind == SURFACE_LIT || kind == SURFACE_BAKED_MOVER) {
         float fog = unpack_fourth(surface.albedo);
         if (fog < 1.0) {

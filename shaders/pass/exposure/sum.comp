@@ -27,7 +27,8 @@ vec2 pixel_sums(ViewRecord view, uvec2 pixel) {
     uint index = pixel.y * view.width + pixel.x;
     SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
     uint kind = surface_kind(surface);
-    if (kind != SURFACE_LIT && kind != SURFACE_BAKED_MOVER) {
+    bool has_exposure = kind == SURFACE_LIT && !is_relit(view);
+    if (!has_exposure && kind != SURFACE_BAKED_MOVER) {
         return vec2(0.0);
     }
     uint draw = texelFetch(visibility_images[view.visibility], ivec2(pixel), 0).x - 1u;
@@ -41,7 +42,7 @@ vec2 pixel_sums(ViewRecord view, uvec2 pixel) {
     vec3 traced = radiance(surface, LightTexels(view.light).entries[index], indirect, program);
     traced = fog * min(traced, 4.0);
     program *= fog;
-    if (kind == SURFACE_LIT) {
+    if (has_exposure) {
         return vec2(luminance(traced), luminance(program));
     }
     uvec3 traced_units = uvec3(traced * MOVER_SCALE + 0.5);

@@ -53,7 +53,8 @@ struct Place {
     vec3 weight;
 };
 
-// What a ray has met: its light that needs no ray, and where it can find more.
+// What a ray has met: its light that needs no ray, and where it can find more. Where baked light is known, that is what is
+// reflected: it has come from everywhere.
 vec3 met_light(ViewRecord view, Hit hit, vec3 direction, out Place place) {
     uint triangle;
     uint draw_index = member_of(view, hit.instance, hit.primitive, triangle);
@@ -71,7 +72,9 @@ vec3 met_light(ViewRecord view, Hit hit, vec3 direction, out Place place) {
     place.geometric = normal;
     place.mask = MASK_STATIC | MASK_MOVING;
     place.weight = vec3(0.0);
-    vec3 color = unlit_color(view, draw_index, triangle, weights);
+    vec3 baked;
+    bool is_baked;
+    vec3 color = unlit_color(view, draw_index, triangle, weights, baked, is_baked);
     vec3 emission = vec3(0.0);
     GlobalState state = global_state(draw);
     if (state.lighting) {
@@ -81,8 +84,12 @@ vec3 met_light(ViewRecord view, Hit hit, vec3 direction, out Place place) {
         color *= clamp(material.diffuse.rgb, 0.0, 1.0);
     }
     color = linear_from_srgb(color);
+    if (is_baked) {
+        return color * baked * view.bake_scale + emission;
+    }
     if (draw.it.kind != SURFACE_LIT) {
-        return color + emission;
+        // Full-bright surfaces among relit ones are lights already, or none.
+        return emission + (is_relit(view) && draw.it.kind == SURFACE_BAKED ? vec3(0.0) : color);
     }
     emission += said_emission(view, draw, triangle, weights, RAY_TEXELS);
     place.weight = color;
@@ -137,6 +144,19 @@ RayPlan plan_any_shadow(ViewRecord view, Place place, float number, vec2 numbers
     return plan_shadow(view, place, light, inverse_chance, numbers);
 }
 
+// Lights up to which a sample asks each; where there are more, that many rays go to chosen ones.
+const uint MOST_ASKED = 4u;
+
+// The shadow ray of a stage in which lights are asked.
+RayPlan plan_direct(ViewRecord view, Place place, uint stage, float number, vec2 numbers) {
+    if (view.light_count <= MOST_ASKED) {
+        return plan_shadow(view, place, stage, 1.0, numbers);
+    }
+    float inverse_chance;
+    uint light = chosen_light(view, place.start, place.normal, number, inverse_chance);
+    return plan_shadow(view, place, light, inverse_chance / float(MOST_ASKED), numbers);
+}
+
 // Samples of a pixel. Of surfaces that lights reach, a sample is a shadow ray to each light, one ray that
 // bounces, and a shadow ray from where that ends. Among baked surfaces it is one ray; where the lights are known that were
 // baked, one of them as well: first what stands still is asked whether it hides it, then what moves.
@@ -148,7 +168,7 @@ Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel
     vec3 specular_color = unpack_color(surface.specular);
     float shininess = unpack_fourth(surface.specular) * 128.0;
     bool is_mover = kind == SURFACE_BAKED_MOVER;
-    uint bounce = in_contact || is_mover ? 0u : view.light_count;
+    uint bounce = in_contact || is_mover ? 0u : min(view.light_count, MOST_ASKED);
     bool is_one_ray = (in_contact || is_mover) && view.light_count == 0u;
     uint stages = is_one_ray ? 1u : in_contact ? 3u : bounce + 2u;
     RayPlan asked = RayPlan(seen.normal, 0.0, vec3(0.0), vec3(0.0), false);
@@ -170,7 +190,7 @@ Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel
             plan = plan_bounce(place, numbers);
         } else {
             if (stage < bounce) {
-                plan = plan_shadow(view, place, stage, 1.0, numbers);
+                plan = plan_direct(view, place, stage, random_2d(random, MOST_ASKED + 2u + stage).x, numbers);
             } else if (place.weight != vec3(0.0)) {
                 plan = plan_any_shadow(view, place, random_2d(random, stage + 1u).x, numbers);
             } else {
@@ -249,7 +269,12 @@ LightTexel found_light(ViewRecord view, SurfaceTexel surface, uint index) {
     if (kind == SURFACE_BAKED) {
         return LightTexel(vec3(0.0), light_left(view, sums), vec3(0.0));
     }
-    vec3 open = view.sky + view.ambient;
+    // What is baked has its constant part everywhere; elsewhere it comes from where nothing is.
+    bool is_replaced = kind == SURFACE_LIT && is_relit(view);
+    vec3 open = is_replaced ? view.sky : view.sky + view.ambient;
+    if (is_replaced) {
+        sums.indirect = sums.indirect * view.bounce + float(view.samples) * view.ambient;
+    }
     if (kind == SURFACE_BAKED_MOVER) {
         // Where nothing was met there may be walls that were not drawn: it is no darker there than elsewhere.
         open = max(open, sums.indirect / max(float(view.samples) - sums.missed, 1.0));
@@ -288,9 +313,9 @@ void main() {
         }
     }
     LightTexels(view.light).entries[index] = light;
-    // In one view there are two kinds at most that must not be mixed: the sign of the depth tells them apart.
+    // Kinds that must not be mixed are told apart by the sign of the depth.
     uint kind = surface_kind(surface);
     float depth = max(dot(view.forward, surface.start), 1e-20);
-    bool is_second = kind == SURFACE_CATCHER || kind == SURFACE_BAKED_MOVER;
+    bool is_second = kind == SURFACE_CATCHER || kind == SURFACE_BAKED;
     ColorTexels(push.target).entries[index] = vec4(light.indirect, kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth);
 }

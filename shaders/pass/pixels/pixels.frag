@@ -58,7 +58,7 @@ void main() {
     [[unroll]] for (uint i = 0u; i < TEXTURE_UNITS; ++i) {
         coordinates[i] = current.texture[i].coefficients;
     }
-    vec4 color = shade_fragment(state, specialized_units(), push, EnvironmentTable(frame.environments), CLAMPS, ALL_UNITS,
+    vec4 color = shade_fragment(state, specialized_units(), push, EnvironmentTable(frame.environments), CLAMPS, ALL_UNITS, 0u,
         primary, clamp(current.secondary.rgb, 0.0, 1.0), coordinates, current.fog.x);
     if (!compare_passes(state.alpha_func, color.a, push.alpha_reference)) {
         discard;

@@ -78,7 +78,7 @@ void main() {
         projective |= sprite || has_unit_q(units[i], i) ? 0u : 1u << i;
     }
 
-    vec4 color = shade_fragment(state, units, push, EnvironmentTable(frame.entries[0].environments), CLAMPS, projective,
+    vec4 color = shade_fragment(state, units, push, EnvironmentTable(frame.entries[0].environments), CLAMPS, projective, 0u,
         primary, secondary, coordinates, in_fog_coordinate);
     if (TOPOLOGY == TOPOLOGY_POINTS && state.antialiased && !state.point_sprite) {
         float coverage = point_coverage();
@@ -93,13 +93,20 @@ void main() {
     out_color = color;
 #ifdef WITH_VISIBILITY
     // The word is free for draws that are no rectangles of pixels.
-    out_visibility = uvec2(push.pixels & ~WHITE_ALBEDO, uint(gl_PrimitiveID));
+    out_visibility = uvec2(push.pixels & ~(WHITE_ALBEDO | BAKE_MASK), uint(gl_PrimitiveID));
     state.fog_mode = FOG_NONE;
     state.color_sum = false;
     state.separate_specular = false;
     vec4 albedo = state.flat_shade ? in_flat_albedo : in_albedo;
+    uint bake = (push.pixels & BAKE_MASK) >> BAKE_SHIFT;
+    uint left_out = (1u << bake) >> 1;
+    [[unroll]] for (uint i = 0u; i < TEXTURE_UNITS; ++i) {
+        albedo = chosen(bake == i + 1u && hides_previous(units[i]), vec4(1.0), albedo);
+    }
     out_albedo = shade_fragment(state, units, push, EnvironmentTable(frame.entries[0].environments), CLAMPS, projective,
-        albedo, vec3(0.0), coordinates, in_fog_coordinate);
+        left_out, albedo, vec3(0.0), coordinates, in_fog_coordinate);
+    // Layers of light leave the surface below them as it is: all of them multiply.
+    out_albedo.rgb = bake == BAKE_LAYER ? vec3(1.0) : bake == BAKE_DOUBLED_LAYER ? vec3(0.5) : out_albedo.rgb;
     out_albedo.a = color.a;
 #endif
 }

@@ -91,7 +91,9 @@ void main() {
     out_back_secondary = back.secondary;
 #ifdef WITH_VISIBILITY
     // Materials are multiplied later.
-    out_albedo = state.lighting || (push.pixels & WHITE_ALBEDO) != 0u ? vec4(1.0) : clamp(color, 0.0, 1.0);
+    bool is_white = state.lighting || (push.pixels & WHITE_ALBEDO) != 0u
+        || (push.pixels & BAKE_MASK) >> BAKE_SHIFT == BAKE_COLORS;
+    out_albedo = is_white ? vec4(1.0) : clamp(color, 0.0, 1.0);
     out_flat_albedo = out_albedo;
 #endif
     out_flat_primary = out_primary;

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use afterglow_scene::Relighting;
 use afterglow_truth::measure::{
-    Report, baked, measure, measure_played, play_as, play_file, write_baked, write_table, write_wrong,
+    Report, baked, lights_profile, measure, measure_played, play_as, play_file, write_baked, write_table, write_wrong,
 };
 use afterglow_truth::oracle::{self, ORACLES, Oracle};
 use afterglow_truth::steady::{watch, write_steadiness};
+use afterglow_truth::Recording;
 use afterglow_truth::styles::{self, Entry, STYLES};
 use anyhow::Context;
 use clap::Parser;
@@ -43,7 +44,8 @@ struct Arguments {
     /// Also say for what triangles were taken, and why
     #[arg(long)]
     wrong: bool,
-    /// Instead, search for the light sources of baked light, and compare them with those it was computed from
+    /// Instead, search for the light sources of baked light, and compare them with those it was computed from; with
+    /// --write, NAME.lights.toml is a profile with the latter
     #[arg(long, conflicts_with = "oracle")]
     relight: bool,
     /// Also write the figures as JSON
@@ -55,7 +57,8 @@ fn main() -> anyhow::Result<()> {
     let arguments = Arguments::parse();
     let mut out = std::io::stdout().lock();
     if arguments.relight {
-        return chosen(&arguments.styles)?.into_iter().try_for_each(|entry| relight(&mut out, entry));
+        let mut styles = chosen(&arguments.styles)?.into_iter();
+        return styles.try_for_each(|entry| relight(&mut out, entry, arguments.write.as_deref()));
     }
     if arguments.steady {
         for path in &arguments.styles {
@@ -136,20 +139,28 @@ fn chosen(names: &[String]) -> anyhow::Result<Vec<&'static Entry>> {
     names.iter().map(|name| styles::named(name).with_context(|| format!("no style '{name}'"))).collect()
 }
 
-fn relight(out: &mut impl Write, entry: &Entry) -> anyhow::Result<()> {
+fn relight(out: &mut impl Write, entry: &Entry, folder: Option<&Path>) -> anyhow::Result<()> {
     let recording = entry.record()?;
     let played = play_as(&recording.trace, Relighting::AtOnce).with_context(|| entry.name)?;
     let observed: Vec<_> = played.into_iter().map(|frame| frame.observed).collect();
+    if let (Some(folder), Some(profile)) = (folder, lights_profile(&recording.truth, &observed)) {
+        write_recording(folder, entry, &recording)?;
+        fs::write(folder.join(format!("{}.lights.toml", entry.name)), profile)?;
+    }
     Ok(write_baked(out, entry.name, baked(&recording.truth, &observed).as_ref())?)
 }
 
 fn run(entry: &Entry, arguments: &Arguments) -> anyhow::Result<Report> {
     let recording = entry.record()?;
     if let Some(folder) = &arguments.write {
-        fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
-        fs::write(folder.join(format!("{}.trace", entry.name)), &recording.trace)?;
-        let truth = serde_json::to_string(&recording.truth)?;
-        fs::write(folder.join(format!("{}.truth.json", entry.name)), truth)?;
+        write_recording(folder, entry, &recording)?;
     }
     measure(&recording).with_context(|| entry.name)
+}
+
+fn write_recording(folder: &Path, entry: &Entry, recording: &Recording) -> anyhow::Result<()> {
+    fs::create_dir_all(folder).with_context(|| folder.display().to_string())?;
+    fs::write(folder.join(format!("{}.trace", entry.name)), &recording.trace)?;
+    let truth = serde_json::to_string(&recording.truth)?;
+    Ok(fs::write(folder.join(format!("{}.truth.json", entry.name)), truth)?)
 }

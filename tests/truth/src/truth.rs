@@ -133,6 +133,9 @@ pub struct Truth {
     pub style: String,
     /// About how large the world is, in its units: what camera errors are relative to.
     pub extent: f64,
+    /// Light that baked surfaces get alike, beside that of the baked lights.
+    #[serde(default)]
+    pub baked_ambient: f32,
     /// In order.
     pub frames: Vec<FrameTruth>,
 }

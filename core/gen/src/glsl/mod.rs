@@ -9,7 +9,7 @@ mod lists;
 use afterglow_gl::frame::{CLIP_PLANES, GlobalWords, LIGHTS, SLOTS, STATE_WORDS, TEXTURE_UNITS, UnitWords};
 use afterglow_layout::StructDescription;
 use afterglow_records::{
-    BlendWord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, NO_MAP, WHITE_ALBEDO,
+    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_MASK, BAKE_NONE, BAKE_SHIFT, BlendWord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, NO_MAP, WHITE_ALBEDO,
 };
 
 use self::constants::{enumerations, record_enumerations, surface_enumerations};
@@ -46,7 +46,18 @@ pub fn gl_blocks() -> String {
 /// What the renderer writes for its shaders, beside the frame's own blocks.
 pub fn records() -> String {
     let mut text = structures(&lists::records()) + "\n" + &record_enumerations();
-    text += &format!("\n#define WHITE_ALBEDO {WHITE_ALBEDO}u\n");
+    text.push('\n');
+    for (name, value) in [
+        ("WHITE_ALBEDO", WHITE_ALBEDO),
+        ("BAKE_SHIFT", BAKE_SHIFT),
+        ("BAKE_MASK", BAKE_MASK),
+        ("BAKE_NONE", BAKE_NONE),
+        ("BAKE_LAYER", BAKE_LAYER),
+        ("BAKE_DOUBLED_LAYER", BAKE_DOUBLED_LAYER),
+        ("BAKE_COLORS", BAKE_COLORS),
+    ] {
+        text += &format!("#define {name} {value}u\n");
+    }
     guarded("GENERATED_RECORDS", &text)
 }
 

@@ -25,9 +25,9 @@ type FrameKey = (u32, VertexLayout, Topology, u32, Visibility);
 /// What a draw of a traced view leaves in the visibility buffer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum DrawMark {
-    /// What was there.
-    Kept,
-    /// The number of its surface plus 1, or 0 where nothing is traced; with `WHITE_ALBEDO` or without.
+    /// What was there. With a `BAKE_` constant at `BAKE_SHIFT`.
+    Kept(u32),
+    /// The number of its surface plus 1, or 0 where nothing is traced; with `WHITE_ALBEDO` or without, and likewise.
     Written(u32),
 }
 
@@ -176,8 +176,7 @@ impl RasterPass<'_> {
         self.bind_pipeline(draw, fixed, mark)?;
         self.bind_push(draw.bindings, draw.environment)?;
         match mark {
-            Some(DrawMark::Written(surface)) => self.push_surface(surface),
-            Some(DrawMark::Kept) => self.push_surface(0),
+            Some(DrawMark::Written(word) | DrawMark::Kept(word)) => self.push_surface(word),
             None => {}
         }
         let (device, raw) = (self.commands.device(), self.commands.raw());
@@ -196,7 +195,7 @@ impl RasterPass<'_> {
     /// What a draw leaves in the visibility buffer, if there is one.
     fn mark(&self, number: usize) -> Option<DrawMark> {
         let view = self.input.view?;
-        Some(view.marks.get(number).copied().unwrap_or(DrawMark::Kept))
+        Some(view.marks.get(number).copied().unwrap_or(DrawMark::Kept(0)))
     }
 
     /// How pipelines treat the visibility buffer that write nothing to it.
@@ -205,7 +204,7 @@ impl RasterPass<'_> {
     }
 
     /// Sets the number that fragments write to the visibility buffer.
-    fn push_surface(&mut self, number: u32) {
+    fn push_surface(&mut self, word: u32) {
         let layout = &self.state.pipelines.draw_layout;
         let offset = std::mem::offset_of!(DrawPush, pixels) as u32;
         // SAFETY: the layout's push constants are a `DrawPush`.
@@ -215,7 +214,7 @@ impl RasterPass<'_> {
                 layout.raw(),
                 layout.stages(),
                 offset,
-                &number.to_ne_bytes(),
+                &word.to_ne_bytes(),
             );
         }
     }
@@ -229,7 +228,7 @@ impl RasterPass<'_> {
         let clamps = self.clamps(draw.bindings)?;
         let visibility = match mark {
             None => Visibility::Absent,
-            Some(DrawMark::Kept) => Visibility::Kept,
+            Some(DrawMark::Kept(_)) => Visibility::Kept,
             Some(DrawMark::Written(_)) => Visibility::Written,
         };
         let key = (draw.fixed, draw.layout, draw.topology, clamps, visibility);

@@ -4,8 +4,10 @@ use std::ops::Range;
 
 use afterglow_gl::frame::{Draw, Frame, HintMaterial, Topology};
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
-use afterglow_records::{SurfaceDraw, SurfaceKind, WHITE_ALBEDO};
-use afterglow_scene::Verdict;
+use afterglow_records::{
+    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_NONE, BAKE_SHIFT, SurfaceDraw, SurfaceKind, WHITE_ALBEDO,
+};
+use afterglow_scene::{BakedInto, Class, Relit, Verdict};
 use glam::{DVec3, Mat4};
 
 use super::arrange::Mark;
@@ -71,6 +73,7 @@ pub(crate) fn gather<'a>(
         options,
         input,
         lighting: Lighting::of(&tracing.scene),
+        relit: tracing.scene.relit.as_ref(),
         origin,
         layers: LayerFinder::default(),
         surfaces: Surfaces::default(),
@@ -85,7 +88,7 @@ pub(crate) fn gather<'a>(
                 let place = Place { number, operation, draw };
                 gatherer.mark(&place, verdict, mark)?
             }
-            _ => DrawMark::Kept,
+            _ => DrawMark::Kept(0),
         };
         gatherer.surfaces.marks.push(mark);
     }
@@ -97,6 +100,8 @@ struct Gatherer<'a, 'i> {
     options: &'i PathtraceOptions,
     input: &'i mut TraceInput<'a>,
     lighting: Lighting,
+    /// Where traced light takes the place of baked light.
+    relit: Option<&'i Relit>,
     origin: DVec3,
     layers: LayerFinder,
     surfaces: Surfaces<'a>,
@@ -121,10 +126,10 @@ impl<'a> Gatherer<'a, '_> {
             }
             Mark::Unseen(block) if is_there => {
                 self.unseen(place, verdict, block)?;
-                DrawMark::Kept
+                DrawMark::Kept(0)
             }
             Mark::Solid => DrawMark::Written(0),
-            Mark::Traced | Mark::Covered | Mark::Layer | Mark::Colorless | Mark::Unseen(_) => DrawMark::Kept,
+            Mark::Traced | Mark::Covered | Mark::Layer | Mark::Colorless | Mark::Unseen(_) => DrawMark::Kept(0),
         })
     }
 
@@ -139,7 +144,8 @@ impl<'a> Gatherer<'a, '_> {
         self.surfaces.kinds.push((place.operation, kind));
         // Among baked surfaces the colours of what moves are a guess at its light.
         let is_white = kind == SurfaceKind::BakedMover;
-        Ok(DrawMark::Written((surface + 1) | if is_white { WHITE_ALBEDO } else { 0 }))
+        let bake = self.bake(place, verdict).unwrap_or(BAKE_NONE) << BAKE_SHIFT;
+        Ok(DrawMark::Written((surface + 1) | bake | if is_white { WHITE_ALBEDO } else { 0 }))
     }
 
     /// What was drawn in an earlier frame: rays meet it, the camera does not see it.
@@ -157,7 +163,8 @@ impl<'a> Gatherer<'a, '_> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let hint = self.input.frame.hint(place.draw);
         let has_material = hint.is_some_and(|hint| hint.material != HintMaterial::default());
-        let kind = self.lighting.kind(verdict, words, has_material);
+        let is_baked = verdict.baked || self.bake(place, verdict).is_some();
+        let kind = self.lighting.kind(&Verdict { baked: is_baked, ..*verdict }, words, has_material);
         let (mask, meets) = masks(verdict.class, kind);
         let surface = self.record(place, verdict, kind, meets)?;
         let triangles = self.geometry.read(self.input.frame, place.draw);
@@ -181,7 +188,20 @@ impl<'a> Gatherer<'a, '_> {
             let layer = self.record(place, verdict, SurfaceKind::None, 0)?;
             self.layers.link(&mut self.surfaces.records, layer, &triangles);
         }
-        Ok(DrawMark::Kept)
+        Ok(DrawMark::Kept(self.bake(place, verdict).unwrap_or(BAKE_NONE) << BAKE_SHIFT))
+    }
+
+    /// What of a draw's colour is baked light that traced light takes the place of: a `BAKE_` constant.
+    fn bake(&self, place: &Place<'_>, verdict: &Verdict) -> Option<u32> {
+        let is_layer = verdict.class == Class::Layer;
+        let of_world = is_layer || verdict.class == Class::Static;
+        let bakes = &self.relit.filter(|_| of_world)?.bakes;
+        bakes.of(self.input.frame, place.draw, is_layer).map(|baked| match baked {
+            BakedInto::Unit(unit) => u32::from(unit) + 1,
+            BakedInto::Colors => BAKE_COLORS,
+            BakedInto::Layer { is_doubled: false } => BAKE_LAYER,
+            BakedInto::Layer { is_doubled: true } => BAKE_DOUBLED_LAYER,
+        })
     }
 
     /// Adds a record. Returns its number.
@@ -210,7 +230,8 @@ impl<'a> Gatherer<'a, '_> {
         let number = self.surfaces.records.len() as u32;
         let rows = relative(&verdict.model, self.origin);
         let record = surface_draw(input.frame, draw, located, rows, kind, ray_mask, number);
-        let record = material.write(record);
+        let bake = self.bake(place, verdict).unwrap_or(BAKE_NONE);
+        let record = material.write(SurfaceDraw { bake, ..record });
         self.surfaces.records.push(record);
         Ok(number)
     }

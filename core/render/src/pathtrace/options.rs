@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afterglow_records::Paint;
-use afterglow_scene::{Class, MEMORY_BYTES, Profile, Relighting};
+use afterglow_scene::{Class, MEMORY_BYTES, Profile, Relighting, Replacing};
 use glam::Vec3;
 
 /// What a frame becomes.
@@ -41,6 +41,8 @@ pub struct PathtraceOptions {
     pub profile: Option<Arc<Profile>>,
     /// Whether light sources are recovered from baked light. It holds from the first frame on, like the profile.
     pub relighting: Relighting,
+    /// Whether their light takes the place of the baked one. Likewise.
+    pub replacing: Replacing,
     /// Bytes of the static world that is remembered when it is not drawn; 0 for none of it.
     pub memory_bytes: u64,
     /// What the picture shows.
@@ -60,6 +62,7 @@ impl Default for PathtraceOptions {
             accumulate: true,
             profile: None,
             relighting: Relighting::Background,
+            replacing: Replacing::WhereGood,
             memory_bytes: MEMORY_BYTES,
             paint: Paint::Picture,
             move_light: None,

@@ -140,6 +140,8 @@ impl Tracer {
                 light_count: lights.len() as u32,
                 samples: options.spp.max(1),
                 seed: options.seed,
+                bake_scale: scene.relit.as_ref().map_or(0.0, |relit| relit.scale),
+                bounce: scene.relit.as_ref().map_or([-1.0; 3], |relit| relit.bounce.to_array()),
                 sky: scene.sky.to_array(),
                 contact_reach: CONTACT_SHARE * world.extent,
                 ambient: scene.ambient.to_array(),
@@ -178,7 +180,9 @@ impl Tracer {
         let accumulated = self.history[view].advance(common.hash, may_continue, samples);
         let (filter_steps, filter_reason) = self.filter_steps(accumulated + samples);
         let has = |kind: SurfaceKind| kinds.contains(&kind);
-        let exposure = match has(SurfaceKind::Lit) {
+        // What is relit is as bright as the bake.
+        let is_relit = common.record.bake_scale > 0.0;
+        let exposure = match has(SurfaceKind::Lit) && !is_relit {
             false => ExposureUse::None,
             true if std::mem::take(finds_exposure) => ExposureUse::Found { continues: self.has_exposure },
             true => ExposureUse::Shared,

@@ -2,7 +2,7 @@
 
 use afterglow_gl::frame::{Compare, Draw, FixedState, Frame, StateWords};
 use afterglow_records::{
-    BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, NO_MAP, SurfaceDraw,
+    BAKE_NONE, BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, NO_MAP, SurfaceDraw,
     SurfaceKind,
 };
 use afterglow_scene::{Class, LightOrigin, Scene, Verdict};
@@ -22,13 +22,16 @@ pub(crate) enum Lighting {
     MadeUp,
     /// Its colours are its light.
     Baked,
+    /// Traced light takes the place of the light in its colours.
+    Relit,
 }
 
 impl Lighting {
     pub(crate) fn of(scene: &Scene) -> Self {
         let is_programs = |origin| matches!(origin, LightOrigin::Gl(_));
-        // Recovered lights do not take the place of the light that they were recovered from.
-        if scene.lights.iter().all(|light| light.origin == LightOrigin::Recovered) {
+        if scene.relit.is_some() {
+            Self::Relit
+        } else if scene.lights.iter().all(|light| light.origin == LightOrigin::Recovered) {
             Self::Baked
         } else if scene.lights.iter().any(|light| matches!(light.origin, LightOrigin::Program(_))) {
             Self::Said
@@ -48,8 +51,9 @@ impl Lighting {
             Self::Lights => SurfaceKind::Catcher,
             Self::Said | Self::MadeUp if verdict.baked => SurfaceKind::Catcher,
             Self::Said | Self::MadeUp => SurfaceKind::Lit,
-            Self::Baked if verdict.class == Class::Static => SurfaceKind::Baked,
-            Self::Baked => SurfaceKind::BakedMover,
+            Self::Relit if verdict.class == Class::Static && verdict.baked => SurfaceKind::Lit,
+            Self::Baked | Self::Relit if verdict.class == Class::Static => SurfaceKind::Baked,
+            Self::Baked | Self::Relit => SurfaceKind::BakedMover,
         }
     }
 }
@@ -118,6 +122,8 @@ pub(crate) fn surface_draw(
         normal_map: NO_MAP,
         metallic_roughness_map: NO_MAP,
         emission_map: NO_MAP,
+        bake: BAKE_NONE,
+        padding: 0,
     }
 }
 

@@ -89,7 +89,7 @@ impl Tracer {
 
     fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
         let mut recovery =
-            Recovery::with_profile(options.profile.clone()).with_relighting(options.relighting);
+            Recovery::with_profile(options.profile.clone()).with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);
         Self {
             options,

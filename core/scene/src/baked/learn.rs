@@ -1,12 +1,11 @@
 //! From a judged frame to the static triangles that were not known before.
 
-use afterglow_gl::frame::{
-    BlendFactor, CombineFunction, Cull, Draw, EnvMode, Format, Frame, Operation, Slot, UnitWords,
-};
+use afterglow_gl::frame::{BlendFactor, Cull, Draw, EnvMode, Format, Frame, Operation, Slot};
 use glam::{DVec3, Mat3, Mat4, Vec2, Vec3, Vec4};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::xxh3_64;
 
+use super::relit::{factor, first_factor, multiplier};
 use super::surfaces::{MOST_MAPS, Map, Triangle, World};
 use crate::content::triangle_key;
 use crate::geometry::Attribute;
@@ -100,12 +99,11 @@ fn layers<'a>(frame: &'a Frame, scene: &'a Scene) -> Layers<'a> {
 
 fn over(frame: &Frame, draw: &Draw) -> Option<Over> {
     use BlendFactor as F;
-    match frame.fixed.get(draw.fixed as usize)?.raster.blend?.rgb {
-        (F::DestinationColor, F::Zero) | (F::Zero, F::SourceColor) => Some(Over::Multiplies(1.0)),
-        (F::DestinationColor, F::SourceColor) => Some(Over::Multiplies(2.0)),
-        (F::One | F::SourceAlpha, F::One) => Some(Over::Glows),
-        _ => None,
-    }
+    let glows = matches!(
+        frame.fixed.get(draw.fixed as usize)?.raster.blend?.rgb,
+        (F::One | F::SourceAlpha, F::One)
+    );
+    multiplier(frame, draw).map(Over::Multiplies).or(glows.then_some(Over::Glows))
 }
 
 fn triangle(
@@ -203,23 +201,4 @@ fn add_units(frame: &Frame, draw: &Draw, first: usize, scale: f32, maps: &mut Ve
             maps.push(Map { image: binding.image, coordinates, scale: factor * scale.unwrap_or(1.0) });
         }
     }
-}
-
-/// What the first unit multiplies its texel by, if it multiplies at all.
-fn first_factor(words: &UnitWords) -> Option<f32> {
-    factor(words).or((words.env_mode() == EnvMode::Replace as u32).then_some(1.0)).or_else(|| {
-        let replaces = words.env_mode() == EnvMode::Combine as u32
-            && words.combine_rgb() == CombineFunction::Replace as u32;
-        replaces.then(|| f32::from(1u8 << words.scale_rgb()))
-    })
-}
-
-/// What a unit multiplies its texel by, if it multiplies what comes before.
-fn factor(words: &UnitWords) -> Option<f32> {
-    if words.env_mode() == EnvMode::Modulate as u32 {
-        return Some(1.0);
-    }
-    let multiplies = words.env_mode() == EnvMode::Combine as u32
-        && words.combine_rgb() == CombineFunction::Modulate as u32;
-    multiplies.then(|| f32::from(1u8 << words.scale_rgb()))
 }

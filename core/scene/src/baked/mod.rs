@@ -9,6 +9,7 @@ mod emitters;
 mod learn;
 mod lightmap;
 mod patches;
+mod relit;
 mod search;
 mod sources;
 mod surfaces;
@@ -19,9 +20,10 @@ mod texels;
 use afterglow_gl::frame::Frame;
 
 use crate::images::Images;
-use crate::types::{Class, Relighting, Scene};
+use crate::types::{Class, LightOrigin, Relight, Relighting, Replacing, Scene, SceneLight};
 use learn::learn;
-use search::{Search, Solution};
+pub use relit::{BakedInto, Bakes, Relit};
+use search::{Replacement, Search, Solution};
 use surfaces::World;
 use texels::Texels;
 
@@ -36,12 +38,21 @@ const GROWTH: f32 = 1.5;
 #[derive(Debug, Default)]
 pub struct BakedLight {
     mode: Relighting,
+    replacing: Replacing,
     texels: Texels,
+    of_world: OfWorld,
+}
+
+/// What is known of one world.
+#[derive(Debug, Default)]
+struct OfWorld {
+    /// Which, as the tracker counts them.
+    epoch: u64,
     world: World,
     search: Search,
     solution: Option<Solution>,
-    /// Which world it is of, as the tracker counts them.
-    epoch: u64,
+    /// Of the bake, where lights are given.
+    given: Option<Replacement>,
     frames: u32,
     looks: u32,
     /// Area of the world that was searched last.
@@ -50,8 +61,8 @@ pub struct BakedLight {
 
 impl BakedLight {
     /// Nothing is known yet.
-    pub fn new(mode: Relighting) -> BakedLight {
-        BakedLight { mode, ..BakedLight::default() }
+    pub fn new(mode: Relighting, replacing: Replacing) -> BakedLight {
+        BakedLight { mode, replacing, ..BakedLight::default() }
     }
 
     /// Takes note of a frame's new texels.
@@ -73,41 +84,70 @@ impl BakedLight {
         if self.mode == Relighting::Off {
             return;
         }
-        if self.epoch != epoch {
-            let (mode, texels) = (self.mode, std::mem::take(&mut self.texels));
-            *self = BakedLight { mode, texels, epoch, ..BakedLight::default() };
+        if self.of_world.epoch != epoch {
+            self.of_world = OfWorld { epoch, ..OfWorld::default() };
         }
-        let is_baked = scene.baked && scene.lights.is_empty() && scene.camera.is_some();
-        if !is_baked {
+        let is_given = are_given(&scene.lights) && self.replacing != Replacing::Never;
+        let is_baked = scene.baked && scene.lights.is_empty();
+        if !(is_given || is_baked) || scene.camera.is_none() {
             return;
         }
-        if self.frames.is_multiple_of(EVERY) {
-            learn(&mut self.world, frame, scene);
-            self.looks += 1;
-            self.consider(scene, images);
+        if self.of_world.frames.is_multiple_of(EVERY) {
+            learn(&mut self.of_world.world, frame, scene);
+            self.of_world.looks += 1;
+            self.consider(scene, images, is_given);
         }
-        self.frames = self.frames.wrapping_add(1);
-        if let Some(found) = self.search.take() {
-            self.solution = Some(found);
+        self.of_world.frames = self.of_world.frames.wrapping_add(1);
+        if let Some(found) = self.of_world.search.take() {
+            self.of_world.solution = Some(found);
         }
-        if let Some(solution) = &self.solution {
-            scene.relight = Some(solution.report);
-            if solution.report.is_used {
-                scene.lights.clone_from(&solution.lights);
-                scene.ambient += solution.ambient;
-            }
+        if is_given {
+            scene.relit = self.of_world.given.as_ref().map(|given| given.relit.clone());
+        } else if let Some(solution) = &self.of_world.solution {
+            light(scene, solution, self.replacing);
         }
     }
 
     /// Searches where enough has been seen that was not searched before.
-    fn consider(&mut self, scene: &Scene, images: &Images) {
-        let has_grown = self.world.area > GROWTH * self.searched;
-        if self.looks < FIRST_LOOKS || !has_grown || self.search.is_running() {
+    fn consider(&mut self, scene: &Scene, images: &Images, is_given: bool) {
+        let known = &mut self.of_world;
+        let has_grown = known.world.area > GROWTH * known.searched;
+        if known.looks < FIRST_LOOKS || !has_grown || known.search.is_running() {
             return;
         }
         let has_sky = scene.verdicts.iter().any(|verdict| verdict.class == Class::Sky);
-        let Some(problem) = self.world.problem(&self.texels, images, has_sky) else { return };
-        self.searched = self.world.area;
-        self.search.begin(problem, self.mode == Relighting::Background);
+        let Some(problem) = known.world.problem(&self.texels, images, has_sky) else { return };
+        known.searched = known.world.area;
+        match is_given {
+            true => known.given = Some(Replacement::by_known_lights(&problem)),
+            false => known.search.begin(problem, self.mode == Relighting::Background),
+        }
+    }
+}
+
+/// Whether a profile has said what lights a world.
+fn are_given(lights: &[SceneLight]) -> bool {
+    !lights.is_empty() && lights.iter().all(|light| light.origin == LightOrigin::Profile)
+}
+
+/// Gives a scene the lights that were found, in place of the bake or beside it.
+fn light(scene: &mut Scene, solution: &Solution, replacing: Replacing) {
+    let report = Relight {
+        replaces: match replacing {
+            Replacing::Never => false,
+            Replacing::WhereGood => solution.report.replaces,
+            Replacing::Always => solution.report.lights > 0,
+        },
+        ..solution.report
+    };
+    scene.relight = Some(report);
+    if report.replaces {
+        scene.lights.clone_from(&solution.lights);
+        scene.ambient += solution.replacement.ambient;
+        scene.sky = solution.replacement.sky;
+        scene.relit = Some(solution.replacement.relit.clone());
+    } else if report.is_used {
+        scene.lights.clone_from(&solution.lights);
+        scene.ambient += solution.ambient;
     }
 }

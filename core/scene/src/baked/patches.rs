@@ -4,12 +4,16 @@
 //! it does not matter how the world is cut into triangles.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
+use afterglow_gl::frame::ImageKey;
 use afterglow_relight::Patch;
 use glam::{Vec2, Vec3};
+use hashbrown::{HashMap, HashSet};
 
 use super::emitters::emitters;
 use super::lightmap::Lightmaps;
+use super::relit::Bakes;
 use super::search::Problem;
 use super::surfaces::{Map, Triangle, World};
 use super::texels::{Image, Texels};
@@ -83,6 +87,20 @@ impl World {
         bakes
     }
 
+    /// The textures that are lightmaps where they lie, mostly.
+    fn lightmaps(&self, bakes: &[Option<Bake>]) -> HashSet<ImageKey> {
+        let mut counts: HashMap<ImageKey, u32> = HashMap::new();
+        for bake in bakes {
+            if let Some(Bake::Map(map, _)) = bake {
+                *counts.entry(map.image).or_default() += 1;
+            }
+        }
+        let is_mostly = |(key, count): &(ImageKey, u32)| {
+            self.uses.get(key).is_some_and(|of| 2 * count > of.triangles)
+        };
+        counts.into_iter().filter(is_mostly).map(|(key, _)| key).collect()
+    }
+
     /// What sources are to be found in; nothing where the world does not show enough of baked light.
     pub fn problem(&self, texels: &Texels, images: &Images, has_sky: bool) -> Option<Problem> {
         let lightmaps = Lightmaps::of(self, texels);
@@ -102,7 +120,9 @@ impl World {
             Bake::Map(map, _) => Some(map.scale),
             Bake::Colors => None,
         });
+        let in_colors = !bakes.iter().any(|bake| matches!(bake, Some(Bake::Map(..))));
         (patches.len() >= LEAST_PATCHES).then(|| Problem {
+            bakes: Bakes { lightmaps: Arc::new(self.lightmaps(&bakes)), in_colors },
             triangles: self.triangles.iter().map(|triangle| triangle.corners).collect(),
             emitters: emitters(&self.triangles, &bakes, images, side),
             patches,

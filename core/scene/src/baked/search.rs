@@ -7,6 +7,7 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use afterglow_relight::{Baked, Emitter, Found, Options, Patch, Sky, recover};
 use glam::Vec3;
 
+use super::relit::{Bakes, Relit};
 use super::sources;
 use crate::types::{Relight, SceneLight};
 
@@ -15,6 +16,9 @@ const RAYS: u64 = 3_000_000;
 /// Lights are used from this share of explained area on, up to this residual.
 const LEAST_EXPLAINED: f32 = 0.4;
 const MOST_RESIDUAL: f32 = 0.4;
+/// From this share on, up to this residual, they take the place of the bake.
+const LEAST_TO_REPLACE: f32 = 0.8;
+const MOST_TO_REPLACE: f32 = 0.2;
 
 /// What sources are searched in.
 #[derive(Debug)]
@@ -29,6 +33,8 @@ pub struct Problem {
     pub saturation: f32,
     /// The program draws a sky.
     pub has_sky: bool,
+    /// What is baked light in it.
+    pub bakes: Bakes,
 }
 
 /// What was found.
@@ -38,8 +44,30 @@ pub struct Solution {
     pub lights: Vec<SceneLight>,
     /// What comes from everywhere, as [`Scene::ambient`](crate::Scene::ambient) has it.
     pub ambient: Vec3,
+    /// What lights the world where traced light takes the place of the baked.
+    pub replacement: Replacement,
     /// How good it is.
     pub report: Relight,
+}
+
+/// What takes the place of baked light, beside the lights.
+#[derive(Debug, Clone)]
+pub struct Replacement {
+    /// What is replaced.
+    pub relit: Relit,
+    /// What every surface gets alike, as [`Scene::ambient`](crate::Scene::ambient) has it.
+    pub ambient: Vec3,
+    /// As [`Scene::sky`](crate::Scene::sky) has it.
+    pub sky: Vec3,
+}
+
+impl Replacement {
+    /// For lights that are known, whatever a search would find.
+    pub fn by_known_lights(problem: &Problem) -> Replacement {
+        let scale = sources::scale(&problem.patches);
+        let relit = Relit { bakes: problem.bakes.clone(), scale, bounce: Vec3::ONE };
+        Replacement { relit, ambient: Vec3::ZERO, sky: Vec3::ZERO }
+    }
 }
 
 /// Light sources are searched in one problem at a time.
@@ -142,6 +170,12 @@ fn solution(problem: &Problem, found: &Found) -> Solution {
         rays: found.rays,
         scale,
         is_used: is_good(found.residual, found.explained),
+        replaces: found.explained >= LEAST_TO_REPLACE && found.residual <= MOST_TO_REPLACE,
     };
-    Solution { lights, ambient: scale * sources::ambient(found, &problem.patches), report }
+    let replacement = Replacement {
+        relit: Relit { bakes: problem.bakes.clone(), scale, bounce: found.bounce },
+        ambient: scale * found.ambient,
+        sky: scale * sources::sky(found),
+    };
+    Solution { lights, ambient: scale * sources::ambient(found, &problem.patches), replacement, report }
 }

@@ -35,9 +35,14 @@ pub fn scale(patches: &[Patch]) -> f32 {
 pub fn ambient(found: &Found, patches: &[Patch]) -> Vec3 {
     let area: f32 = patches.iter().map(|patch| patch.area).sum();
     let shown: Vec3 = patches.iter().map(|patch| patch.area * patch.albedo * patch.irradiance).sum();
-    let sky: Vec3 = found.lights.iter().filter(|light| light.source == Source::Sky).map(|l| l.power).sum();
     // Half of the sky is hidden from most places.
-    found.ambient + found.bounce * shown / area.max(f32::MIN_POSITIVE) + sky * PI * 0.5
+    found.ambient + found.bounce * shown / area.max(f32::MIN_POSITIVE) + sky(found) * 0.5
+}
+
+/// What shines where a ray meets nothing.
+pub fn sky(found: &Found) -> Vec3 {
+    let powers = found.lights.iter().filter(|light| light.source == Source::Sky).map(|light| light.power);
+    powers.sum::<Vec3>() * PI
 }
 
 fn shape(light: &Light, emitters: &[Emitter]) -> Option<(LightShape, Vec3)> {

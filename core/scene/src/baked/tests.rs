@@ -11,7 +11,7 @@ use super::surfaces::{Map, Triangle, World};
 use super::texels::{Image, Texels};
 use crate::images::Images;
 use crate::testing::Sketch;
-use crate::types::{LightOrigin, Relighting, Scene};
+use crate::types::{LightOrigin, Relighting, Replacing, Scene};
 use crate::{Recovery, baked::search::Search};
 
 /// Side of the squares of which worlds are made.
@@ -192,7 +192,7 @@ fn a_search_in_the_background_finds_what_one_at_once_finds() {
 
 /// A floor with a lightmap pass, in so many frames.
 fn scenes(frames: u32, relighting: Relighting) -> Vec<Scene> {
-    let mut recovery = Recovery::new().with_relighting(relighting);
+    let mut recovery = Recovery::new().with_relighting(relighting, Replacing::WhereGood);
     let scene = |number: u32| {
         let mut sketch = Sketch::new();
         sketch.modelview = Mat4::from_translation(Vec3::new(0.02 * number as f32, -2.0, -5.0));

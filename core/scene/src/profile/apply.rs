@@ -8,11 +8,11 @@ use std::sync::Arc;
 use afterglow_gl::frame::Frame;
 use glam::{DMat3, DMat4, DVec3, Mat4, Vec3};
 
-use super::rules::{CameraKind, Found, MatrixKind, Order, Profile, Rule, Subject};
+use super::rules::{Baked, CameraKind, Found, MatrixKind, Order, Profile, Rule, Subject};
 use crate::draws::{DrawFacts, TransformFacts};
 use crate::images::Images;
 use crate::matrix;
-use crate::types::{Class, LightOrigin, LightShape, Scene, SceneLight, Verdict};
+use crate::types::{Class, LightOrigin, LightShape, Replacing, Scene, SceneLight, Verdict};
 
 /// Rotations that differ by less in every entry are the same.
 const SAME_TURN: f64 = 1e-4;
@@ -62,6 +62,23 @@ impl Overrides {
     /// Whether lights that are found may be added to a scene.
     pub(crate) fn takes_found_lights(&self) -> bool {
         self.profile.as_ref().is_none_or(|profile| profile.lights.found != Found::Off)
+    }
+
+    /// Whether traced light takes the place of baked light, where a profile says so.
+    pub(crate) fn replacing(&self) -> Option<Replacing> {
+        self.profile.as_ref()?.lights.baked.map(|baked| match baked {
+            Baked::Auto => Replacing::WhereGood,
+            Baked::Keep => Replacing::Never,
+            Baked::Replace => Replacing::Always,
+        })
+    }
+
+    /// Overrides how much relit surfaces reflect at one another.
+    pub(crate) fn relit(&self, scene: &mut Scene) {
+        let bounce = self.profile.as_ref().and_then(|profile| profile.lights.bounce);
+        if let (Some(relit), Some(bounce)) = (&mut scene.relit, bounce) {
+            relit.bounce = bounce;
+        }
     }
 
     /// Overrides camera, lights and sky.
@@ -125,6 +142,7 @@ impl Profile {
         if self.lights.found == Found::Off || !self.light.is_empty() {
             scene.baked = scene.lights.is_empty();
         }
+        scene.ambient += self.lights.ambient.unwrap_or(Vec3::ZERO);
         scene.sky = self.sky.color.unwrap_or(scene.sky);
     }
 }

@@ -132,6 +132,22 @@ impl Rule for ClassRule {
 #[serde(deny_unknown_fields, default)]
 pub(super) struct LightSettings {
     pub(super) found: Found,
+    /// Linear; on every surface alike.
+    #[serde(deserialize_with = "parse::some_color")]
+    pub(super) ambient: Option<Vec3>,
+    pub(super) baked: Option<Baked>,
+    /// How much of what relit surfaces reflect reaches others.
+    #[serde(deserialize_with = "parse::some_color")]
+    pub(super) bounce: Option<Vec3>,
+}
+
+/// What becomes of baked light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Baked {
+    Auto,
+    Keep,
+    Replace,
 }
 
 /// See [`LightSettings`].

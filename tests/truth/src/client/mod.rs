@@ -57,7 +57,7 @@ impl Client {
     /// Never in fact: memory takes all that is written.
     pub fn new(style: &str) -> io::Result<Client> {
         let calls = Calls::new(style)?;
-        let truth = Truth { style: style.into(), extent: 1.0, frames: Vec::new() };
+        let truth = Truth { style: style.into(), extent: 1.0, ..Truth::default() };
         let mut client = Client { calls, truth, frame: FrameTruth::default(), textures: 0, lists: 0 };
         client.viewport([0, 0, WINDOW.0, WINDOW.1]);
         client.enable(GL_DEPTH_TEST);
@@ -83,6 +83,11 @@ impl Client {
     /// Says about how large the world is, in its units.
     pub fn set_extent(&mut self, extent: f64) {
         self.truth.extent = extent;
+    }
+
+    /// Says what light baked surfaces get alike.
+    pub fn set_baked_ambient(&mut self, ambient: f32) {
+        self.truth.baked_ambient = ambient;
     }
 
     /// Says that the frame shows a world from a camera.

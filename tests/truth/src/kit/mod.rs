@@ -17,5 +17,5 @@ pub use mesh::{Mesh, Primitive, Vertex, triangles_of};
 pub use paths::{in_sight, look_at, perspective, walk};
 pub use picture::Picture;
 pub use random::Random;
-pub use room::{Face, Room};
+pub use room::{AMBIENT, Face, Room};
 pub use shapes::{boxed, creature, dome, ring, sphere};

@@ -30,7 +30,7 @@ pub struct Room {
 const TEXELS: usize = 256;
 const TILE: usize = 32;
 /// Light that is everywhere.
-const AMBIENT: f32 = 0.04;
+pub const AMBIENT: f32 = 0.04;
 
 impl Room {
     /// Three lamps of different colours among four pillars.

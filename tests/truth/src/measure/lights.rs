@@ -115,6 +115,26 @@ pub fn baked(truth: &Truth, observed: &[Observed]) -> Option<BakedScore> {
     Some(BakedScore { relight, lights: lights.filter_map(nearest).collect() })
 }
 
+/// A profile with the lamps that a program's bake was computed from, in the world that recovery has, in the units of what
+/// it found; nothing where [`baked`] finds nothing.
+pub fn lights_profile(truth: &Truth, observed: &[Observed]) -> Option<String> {
+    let mut frames = truth.frames.iter().zip(observed).rev();
+    let (frame, observed) = frames.find(|(_, observed)| observed.relight.is_some())?;
+    let scale = observed.relight?.scale;
+    let world = observed.camera?.view.inverse() * frame.camera?.view;
+    let ambient = scale * truth.baked_ambient;
+    let mut text = format!("[lights]\nambient = [{ambient}, {ambient}, {ambient}]\nbounce = [0, 0, 0]\n");
+    for light in frame.lights.iter().filter(|light| light.origin == TrueLightOrigin::Baked) {
+        let TrueLightShape::Point { position, .. } = light.shape else { continue };
+        let [x, y, z] = world.transform_point3(position).to_array();
+        let [r, g, b] = (scale * light.color).to_array();
+        text += &format!(
+            "[[light]]\nkind = \"point\"\nposition = [{x}, {y}, {z}]\ncolor = [{r}, {g}, {b}]\nreach = 1\n"
+        );
+    }
+    Some(text)
+}
+
 /// Writes what [`baked`] found of a style.
 ///
 /// # Errors

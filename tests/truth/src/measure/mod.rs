@@ -16,7 +16,7 @@ use crate::truth::Truth;
 pub use camera::CameraScore;
 pub use classes::{ClassScore, HYSTERESIS, TracedScore};
 pub use identity::IdentityScore;
-pub use lights::{BakedLight, BakedScore, LightScore, baked, write_baked};
+pub use lights::{BakedLight, BakedScore, LightScore, baked, lights_profile, write_baked};
 pub use observe::{Observed, Run};
 pub use play::{Played, play, play_as, play_file};
 pub use stability::{Samples, StabilityScore};

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::{Frame, Topology};
 use afterglow_player::{DrawableSizes, PlayReport, Player, TraceSummary};
-use afterglow_scene::{Recovery, Relighting};
+use afterglow_scene::{Recovery, Relighting, Replacing};
 use afterglow_trace::TraceReader;
 use anyhow::{Context, ensure};
 use parking_lot::Mutex;
@@ -104,7 +104,7 @@ fn play_all(reader: TraceReader, sizes: DrawableSizes, relighting: Relighting) -
     let frames = Arc::new(Mutex::new(Vec::new()));
     let shared = frames.clone();
     let factory = Box::new(move |_| {
-        let recovery = Recovery::new().with_relighting(relighting);
+        let recovery = Recovery::new().with_relighting(relighting, Replacing::WhereGood);
         Box::new(Watcher { recovery, frames: shared.clone(), ..Watcher::default() }) as Box<dyn Backend>
     });
     let mut player = Player::new(reader, sizes, factory);

@@ -146,7 +146,7 @@ impl Oracle {
     /// What is true of a trace.
     pub fn truth(&self, frames: &[Vec<Drawn>], judged: &[Judged]) -> Truth {
         let frames = frames.iter().zip(judged).map(|(drawn, judged)| frame_truth(drawn, judged));
-        Truth { style: self.name.into(), extent: self.extent, frames: frames.collect() }
+        Truth { style: self.name.into(), extent: self.extent, frames: frames.collect(), ..Truth::default() }
     }
 }
 

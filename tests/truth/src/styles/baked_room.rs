@@ -5,7 +5,7 @@ use afterglow_scene::Class;
 use glam::{DMat4, DVec3, Vec3};
 
 use crate::client::{Attributes, Client, Texture, thing};
-use crate::kit::{Mesh, Picture, Room, boxed, draw_hud, perspective, walk};
+use crate::kit::{AMBIENT, Mesh, Picture, Room, boxed, draw_hud, perspective, walk};
 use crate::truth::TrueCamera;
 
 /// The room, and a crate.
@@ -23,6 +23,7 @@ impl BakedRoom {
     pub fn begin(gl: &mut Client) -> BakedRoom {
         let room = Room::with_lamps();
         gl.set_extent(room.extent());
+        gl.set_baked_ambient(AMBIENT);
         BakedRoom {
             walls: gl.texture(&Picture::bricks([0.65, 0.6, 0.55])),
             floors: gl.texture(&Picture::grain(5, [0.55, 0.55, 0.5], 0.1)),

@@ -7,6 +7,7 @@ mod lighting;
 mod pathtrace;
 mod pixels;
 mod primitives;
+mod relit;
 mod replies;
 mod scale;
 mod textures;

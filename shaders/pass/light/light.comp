@@ -147,13 +147,15 @@ RayPlan plan_any_shadow(ViewRecord view, Place place, float number, vec2 numbers
 // Lights up to which a sample asks each; where there are more, that many rays go to chosen ones.
 const uint MOST_ASKED = 4u;
 
-// The shadow ray of a stage in which lights are asked.
+// The shadow ray of a stage in which lights are asked. One `number` chooses for all of them (systematic resampling), so that
+// what brings a share of all light has its share of the rays.
 RayPlan plan_direct(ViewRecord view, Place place, uint stage, float number, vec2 numbers) {
     if (view.light_count <= MOST_ASKED) {
         return plan_shadow(view, place, stage, 1.0, numbers);
     }
     float inverse_chance;
-    uint light = chosen_light(view, place.start, place.normal, number, inverse_chance);
+    float own = (float(stage) + number) / float(MOST_ASKED);
+    uint light = chosen_light(view, place.start, place.normal, own, inverse_chance);
     return plan_shadow(view, place, light, inverse_chance / float(MOST_ASKED), numbers);
 }
 
@@ -190,7 +192,7 @@ Sums gather(ViewRecord view, SurfaceTexel surface, Place seen, uint random_pixel
             plan = plan_bounce(place, numbers);
         } else {
             if (stage < bounce) {
-                plan = plan_direct(view, place, stage, random_2d(random, MOST_ASKED + 2u + stage).x, numbers);
+                plan = plan_direct(view, place, stage, random_2d(random, MOST_ASKED + 2u).x, numbers);
             } else if (place.weight != vec3(0.0)) {
                 plan = plan_any_shadow(view, place, random_2d(random, stage + 1u).x, numbers);
             } else {

@@ -152,7 +152,7 @@ impl Recovery {
         let frame = &*frame;
         let views = Views::split(frame);
         let transforms = draws::transforms(frame);
-        let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
+        let draws = draws::draws(frame, &views, &pieces, &self.images, &mut self.cache);
         ended(Phase::Facts);
         let world = World::find(frame, &views, &draws, &transforms, self.viewport);
         ended(Phase::World);
@@ -166,7 +166,8 @@ impl Recovery {
         let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
         ended(Phase::Follow);
         let shown = shown(&views, &draws, &pieces, &transforms, &self.tracker);
-        let mut verdicts = classify(frame, &transforms, &views, &world, &draws, &tracks, shown);
+        let mut verdicts =
+            classify(frame, &transforms, &views, &world, &draws, &tracks, shown, &mut self.cache);
         let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: Some(world.view) };
         self.overrides.classes(evidence, &self.images, &mut verdicts);
         ended(Phase::Classify);

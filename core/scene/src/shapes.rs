@@ -9,7 +9,7 @@ use std::sync::Arc;
 use afterglow_gl::frame::{Draw, Frame, Operation, Topology};
 use hashbrown::{HashMap, HashSet};
 
-use crate::content::{Content, Contents, Found};
+use crate::content::{Content, Contents, Found, part_hash};
 use crate::formers::{Former, Formers, SPRITE};
 use crate::images::Images;
 use crate::objects::Objects;
@@ -31,6 +31,8 @@ const PLANNED: u32 = 16;
 pub struct Piece {
     /// What its triangles are.
     pub content: Arc<Content>,
+    /// Hash of all that its vertices and indices hold.
+    pub bytes: u64,
     /// Content of the texture in its first unit, 0 without one.
     pub texture: u64,
     /// What it belongs to.
@@ -113,6 +115,7 @@ impl Shapes {
                 }
                 pieces.push(Some(Piece {
                     content: surveyed.found.content,
+                    bytes: surveyed.found.bytes,
                     texture: surveyed.texture,
                     known: whole.known.clone(),
                 }));
@@ -122,7 +125,9 @@ impl Shapes {
             for stretch in stretches {
                 let content =
                     stretch.content.or_else(|| content_of(frame, draw, stretch.first, stretch.count));
-                let piece = |content| Piece { content, texture: surveyed.texture, known: stretch.known };
+                let bytes = part_hash(surveyed.found.bytes, stretch.first, stretch.count);
+                let piece =
+                    |content| Piece { content, bytes, texture: surveyed.texture, known: stretch.known };
                 pieces.push(content.map(piece));
             }
         }

@@ -30,9 +30,9 @@ pub struct Witness<'a> {
     /// Vertices, object space.
     pub samples: &'a [glam::Vec3],
     /// Object to eye space, now.
-    pub eye: DMat4,
+    pub eye: &'a DMat4,
     /// Object to world space, as it was.
-    pub model: DMat4,
+    pub model: &'a DMat4,
     /// Names its mesh.
     pub mesh: u64,
     /// It has stood still for some frames.
@@ -41,17 +41,17 @@ pub struct Witness<'a> {
 
 impl Witness<'_> {
     fn proposal(&self) -> Option<DMat4> {
-        let view = self.eye * self.model.inverse();
+        let view = *self.eye * self.model.inverse();
         matrix::similarity(view).filter(|s| s.scale == 1.0).map(|s| s.rigid)
     }
 
     fn agrees(&self, view: DMat4, focal: f64, pixels: f64) -> bool {
-        agrees(self.samples, view * self.model, self.eye, focal, pixels)
+        agrees(self.samples, view * *self.model, *self.eye, focal, pixels)
     }
 
     /// Largest distance of where a view puts it from where it is, pixels.
     pub fn error(&self, view: DMat4, focal: f64) -> f64 {
-        error(self.samples, view * self.model, self.eye, focal)
+        error(self.samples, view * *self.model, *self.eye, focal)
     }
 }
 
@@ -109,7 +109,8 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
         witnesses.iter().zip(&extents).filter(|(w, _)| w.is_trusted).map(|(_, extent)| extent).sum();
     let all: f64 = extents.iter().sum();
     let mut candidates: Vec<Candidate> = Vec::new();
-    for view in proposals(witnesses, &order, prior) {
+    let mut proposals = Proposals { witnesses, order: &order, prior, made: Vec::new(), has_begun: false };
+    while let Some(view) = proposals.next() {
         let candidate = weigh(witnesses, &extents, view, prior);
         // What most of the world says, and of what is trusted, needs no rival to be compared with.
         let reach: f64 = candidate.supporters.iter().map(|index| extents[*index]).sum();
@@ -123,20 +124,39 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
     Some(refine(witnesses, &extents, chosen, prior))
 }
 
-/// Different views that witnesses propose, heaviest first.
-fn proposals(witnesses: &[Witness], order: &[usize], prior: &Prior) -> Vec<DMat4> {
-    let mut proposals: Vec<DMat4> = prior.base.into_iter().collect();
-    for &index in order {
-        if proposals.len() >= MOST_PROPOSALS {
-            break;
+/// Different views that witnesses propose, heaviest first: made one by one, for mostly the first will do.
+struct Proposals<'a> {
+    witnesses: &'a [Witness<'a>],
+    /// Witnesses that were not asked yet.
+    order: &'a [usize],
+    prior: &'a Prior,
+    made: Vec<DMat4>,
+    has_begun: bool,
+}
+
+impl Proposals<'_> {
+    fn next(&mut self) -> Option<DMat4> {
+        if !std::mem::replace(&mut self.has_begun, true) {
+            self.made.extend(self.prior.base);
+            if self.prior.base.is_some() {
+                return self.prior.base;
+            }
         }
-        let witness = &witnesses[index];
-        let is_known = |view: &DMat4| witness.agrees(*view, prior.focal, SAME * TOLERANCE);
-        if !proposals.iter().any(is_known) {
-            proposals.extend(witness.proposal());
+        while let (Some((&index, rest)), true) = (self.order.split_first(), self.made.len() < MOST_PROPOSALS)
+        {
+            self.order = rest;
+            let witness = &self.witnesses[index];
+            let is_known = |view: &DMat4| witness.agrees(*view, self.prior.focal, SAME * TOLERANCE);
+            if self.made.iter().any(is_known) {
+                continue;
+            }
+            if let Some(view) = witness.proposal() {
+                self.made.push(view);
+                return Some(view);
+            }
         }
+        None
     }
-    proposals
 }
 
 fn weigh(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> Candidate {
@@ -220,9 +240,9 @@ pub fn turned_alike(a: DMat4, b: DMat4) -> bool {
 /// mean of all.
 fn refine(witnesses: &[Witness], extents: &[f64], chosen: &Candidate, prior: &Prior) -> DMat4 {
     let of = |index: &usize| &witnesses[*index];
-    let exact = chosen.supporters.iter().filter(|i| of(i).model == DMat4::IDENTITY);
+    let exact = chosen.supporters.iter().filter(|i| *of(i).model == DMat4::IDENTITY);
     if let Some(best) = exact.max_by(|a, b| extents[**a].total_cmp(&extents[**b]).then(b.cmp(a))) {
-        return matrix::orthonormal(of(best).eye);
+        return matrix::orthonormal(*of(best).eye);
     }
     // What moves slowly agrees as well, but not as closely as what stands still.
     let rank = |i: usize| (witnesses[i].is_trusted, extents[i]);

@@ -175,6 +175,11 @@ impl Objects {
         number
     }
 
+    /// How many there are: their numbers are below.
+    pub fn len(&self) -> usize {
+        self.objects.len()
+    }
+
     /// The objects that were first seen with this content.
     pub fn of_content(&self, content: &Content) -> &[u32] {
         self.by_content.get(&(content.positions, content.triangles)).map_or(&[], |objects| objects)

@@ -111,7 +111,7 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
     let mut candidates: Vec<Candidate> = Vec::new();
     let mut proposals = Proposals { witnesses, order: &order, prior, made: Vec::new(), has_begun: false };
     while let Some(view) = proposals.next() {
-        let candidate = weigh(witnesses, &extents, view, prior);
+        let candidate = support(witnesses, &extents, view, prior);
         // What most of the world says, and of what is trusted, needs no rival to be compared with.
         let reach: f64 = candidate.supporters.iter().map(|index| extents[*index]).sum();
         if candidate.trusted > ENOUGH * trusted && 2.0 * reach > all {
@@ -120,6 +120,7 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
         candidates.push(candidate);
     }
     candidates.retain(|candidate| !candidate.supporters.is_empty());
+    candidates.iter_mut().for_each(|candidate| candidate.weight = weight(witnesses, candidate));
     let chosen = choose(&candidates, trusted, prior)?;
     Some(refine(witnesses, &extents, chosen, prior))
 }
@@ -159,17 +160,24 @@ impl Proposals<'_> {
     }
 }
 
-fn weigh(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> Candidate {
+/// A view with the witnesses that agree with it, not weighed yet.
+fn support(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> Candidate {
     let mut candidate = Candidate { view, weight: 0.0, trusted: 0.0, supporters: Vec::new() };
+    for (index, witness) in witnesses.iter().enumerate() {
+        if witness.agrees(view, prior.focal, TOLERANCE) {
+            candidate.supporters.push(index);
+            candidate.trusted += if witness.is_trusted { extents[index] } else { 0.0 };
+        }
+    }
+    candidate
+}
+
+/// How much what agrees with a view reaches, and how many meshes there are of it.
+fn weight(witnesses: &[Witness], candidate: &Candidate) -> f64 {
     let (mut space, mut screen) = (Span::<3>::default(), Span::<2>::default());
     let mut meshes = HashSet::new();
-    for (index, witness) in witnesses.iter().enumerate() {
-        if !witness.agrees(view, prior.focal, TOLERANCE) {
-            continue;
-        }
-        candidate.supporters.push(index);
+    for witness in candidate.supporters.iter().map(|index| &witnesses[*index]) {
         meshes.insert(witness.mesh);
-        candidate.trusted += if witness.is_trusted { extents[index] } else { 0.0 };
         for sample in witness.samples {
             let seen = witness.eye.transform_point3(sample.as_dvec3());
             space.add(seen.to_array());
@@ -179,9 +187,7 @@ fn weigh(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> 
         }
     }
     let shown = DVec2::from_array(screen.sides()).length() / 8f64.sqrt();
-    candidate.weight =
-        DVec3::from_array(space.sides()).length() * (meshes.len() as f64).sqrt() * (0.1 + shown);
-    candidate
+    DVec3::from_array(space.sides()).length() * (meshes.len() as f64).sqrt() * (0.1 + shown)
 }
 
 /// The candidate that is the camera; `trusted` is what all trusted witnesses reach.

@@ -11,7 +11,7 @@ use glam::{Vec3, Vec4};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
-use crate::geometry::{Attribute, mix, sample_positions};
+use crate::geometry::{Attribute, mix, mix_pairs, pairs, sample_positions};
 
 /// Positions that stand for a draw's when it is seen under matrices.
 pub const SAMPLES: usize = 8;
@@ -78,10 +78,10 @@ impl Content {
         self.spread.get_or_init(|| sample_positions(frame, draw, spread_of(draw)).collect())
     }
 
-    /// Whether a point may lie among the triangles, object space. What is not a number may be anywhere.
-    pub fn may_hold(&self, point: Vec3) -> bool {
-        let reach = 0.51 * self.extent;
-        !(self.centre.distance_squared(point) > reach * reach)
+    /// Middle of a ball about the triangles, object space, and its radius squared.
+    pub fn ball(&self) -> (Vec3, f32) {
+        let radius = 0.51 * self.extent;
+        (self.centre, radius * radius)
     }
 }
 
@@ -96,12 +96,15 @@ pub fn affine(position: Vec4) -> Vec3 {
 }
 
 /// Key of a triangle's positions, turned so that the smallest is first; a reflected one has another.
-pub fn triangle_key(mut corners: [Vec4; 3]) -> u64 {
-    let order = |corner: &Vec4| (*corner + Vec4::ZERO).to_array().map(f32::to_bits);
-    let smallest = if order(&corners[1]) < order(&corners[0]) { 1 } else { 0 };
-    let smallest = if order(&corners[2]) < order(&corners[smallest]) { 2 } else { smallest };
-    corners.rotate_left(smallest);
-    scatter(corners.into_iter().fold(3, mix))
+pub fn triangle_key(corners: [Vec4; 3]) -> u64 {
+    // Compared and mixed as pairs of coordinates.
+    let [a, b, c] = corners.map(pairs);
+    let (first, second, third) = match (b < a, c < a, c < b) {
+        (true, _, false) => (b, c, a),
+        (true, _, true) | (false, true, _) => (c, a, b),
+        (false, false, _) => (a, b, c),
+    };
+    scatter(mix_pairs(mix_pairs(mix_pairs(3, first), second), third))
 }
 
 fn topology_key(indices: &[u32], coordinates: Option<Attribute>, at: usize) -> u64 {

@@ -208,8 +208,21 @@ pub fn hash_positions(frame: &Frame, draw: &Draw) -> u64 {
 }
 
 /// Folds a position into a hash; -0 is +0.
+#[inline]
 pub fn mix(hash: u64, position: Vec4) -> u64 {
+    mix_pairs(hash, pairs(position))
+}
+
+/// The bits of a position's coordinates x and y, and z and w; -0 is +0.
+#[inline]
+pub fn pairs(position: Vec4) -> (u64, u64) {
     let [x, y, z, w] = (position + Vec4::ZERO).to_array().map(|c| u64::from(c.to_bits()));
-    let folded = (hash ^ (x << 32 | y)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
-    (folded ^ (z << 32 | w)).wrapping_mul(0xd6e8_feb8_6659_fd93).rotate_left(31)
+    (x << 32 | y, z << 32 | w)
+}
+
+/// As [`mix`], of a position's bits.
+#[inline]
+pub fn mix_pairs(hash: u64, (xy, zw): (u64, u64)) -> u64 {
+    let folded = (hash ^ xy).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
+    (folded ^ zw).wrapping_mul(0xd6e8_feb8_6659_fd93).rotate_left(31)
 }

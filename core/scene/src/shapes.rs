@@ -54,7 +54,7 @@ pub struct Shapes {
     triangles: HashMap<u64, Seen>,
     formers: Formers,
     /// Stretches of draws all of whose triangles are known, by the hash of their bytes.
-    plans: HashMap<u64, (Vec<Stretch>, u32)>,
+    plans: HashMap<u64, (Arc<[Stretch]>, u32)>,
     /// What sprites of a texture belong to.
     sprites: HashMap<u64, u32>,
     /// Objects that are animated in this frame.
@@ -109,7 +109,7 @@ impl Shapes {
             let Some(Operation::Draw(draw)) = frame.operations.get(surveyed.operation) else { continue };
             let is_known = parts.is_empty();
             let stretches = self.stretches(frame, draw, &surveyed, parts, objects);
-            if let [whole] = stretches.as_slice() {
+            if let [whole] = &*stretches {
                 if let (Known::Object(object), true) = (&whole.known, is_known) {
                     self.formers.note_known(&surveyed.found.content, surveyed.texture, *object, self.frame);
                 }
@@ -122,7 +122,7 @@ impl Shapes {
                 continue;
             }
             cuts.push((surveyed.operation, stretches.iter().map(|s| (s.first, s.count)).collect()));
-            for stretch in stretches {
+            for stretch in stretches.iter().cloned() {
                 let content =
                     stretch.content.or_else(|| content_of(frame, draw, stretch.first, stretch.count));
                 let bytes = part_hash(surveyed.found.bytes, stretch.first, stretch.count);
@@ -275,10 +275,10 @@ impl Shapes {
         surveyed: &Surveyed,
         parts: Parts,
         objects: &mut Objects,
-    ) -> Vec<Stretch> {
+    ) -> Arc<[Stretch]> {
         let (content, marks) = (&surveyed.found.content, &surveyed.marks);
         if content.keys.is_empty() {
-            return vec![Stretch { first: 0, count: content.triangles, known: Known::Mesh, content: None }];
+            return [Stretch { first: 0, count: content.triangles, known: Known::Mesh, content: None }].into();
         }
         if let Some((plan, _)) = self.plans.get(&surveyed.found.bytes).filter(|_| surveyed.is_planned) {
             return plan.clone();
@@ -292,6 +292,7 @@ impl Shapes {
                     stretch.content = content_of(frame, draw, stretch.first, stretch.count);
                 }
             }
+            let stretches: Arc<[Stretch]> = stretches.into();
             self.plans.insert(surveyed.found.bytes, (stretches.clone(), self.frame));
             return stretches;
         }
@@ -309,7 +310,7 @@ impl Shapes {
             }
         }
         merge(&mut stretches, content.triangles);
-        stretches
+        stretches.into()
     }
 
     /// What fresh triangles belong to: what they were before if they moved; else they are a thing of their own, or belong to

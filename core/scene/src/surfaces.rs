@@ -27,22 +27,25 @@ pub struct Surfaces<'a> {
 #[derive(Debug)]
 struct Surface<'a> {
     facts: &'a DrawFacts<'a>,
+    /// Middle of the ball about it in object space, and its radius squared; everywhere where that is not known.
+    ball: (Vec3, f32),
     /// Of all its triangles, sorted, once they were needed.
     keys: Option<Arc<[u64]>>,
 }
 
 impl Surface<'_> {
-    /// Whether a point of its object space may lie on it.
+    /// Whether a point of its object space may lie on it. What is not a number may be anywhere.
     fn may_hold(&self, point: Vec3) -> bool {
-        self.facts.piece.is_none_or(|piece| piece.content.may_hold(point))
+        let (centre, reach) = self.ball;
+        !(centre.distance_squared(point) > reach)
     }
 
     fn has(&mut self, frame: &Frame, key: u64, cache: &mut ContentCache) -> bool {
         let facts = self.facts;
-        let find = || match facts.piece {
-            Some(piece) if !piece.content.keys.is_empty() => piece.content.keys.to_vec(),
-            _ => triangles(frame, facts.draw, usize::MAX).map(|(key, _)| key).collect(),
-        };
+        if let Some(piece) = facts.piece.filter(|piece| !piece.content.keys.is_empty()) {
+            return piece.content.keys.contains(&key);
+        }
+        let find = || triangles(frame, facts.draw, usize::MAX).map(|(key, _)| key).collect();
         let keys = self.keys.get_or_insert_with(|| cache.triangle_keys(facts.content, find));
         keys.binary_search(&key).is_ok()
     }
@@ -64,7 +67,8 @@ impl<'a> Surfaces<'a> {
             let positions = hash_positions(frame, facts.draw);
             self.drawn.insert((positions, modelview), facts.operation);
         }
-        self.surfaces.entry(modelview).or_default().push(Surface { facts, keys: None });
+        let ball = facts.piece.map_or((Vec3::ZERO, f32::INFINITY), |piece| piece.content.ball());
+        self.surfaces.entry(modelview).or_default().push(Surface { facts, ball, keys: None });
     }
 
     /// The surface with exactly the positions of a draw.

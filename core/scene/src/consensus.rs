@@ -100,16 +100,12 @@ struct Candidate {
 /// Finds the view on which witnesses agree; nothing where there is none.
 pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
     let extents: Vec<f64> = witnesses.iter().map(extent).collect();
-    let mut order: Vec<usize> = (0..witnesses.len()).collect();
-    order.sort_by(|&a, &b| {
-        let trusted = witnesses[b].is_trusted.cmp(&witnesses[a].is_trusted);
-        trusted.then(extents[b].total_cmp(&extents[a])).then(a.cmp(&b))
-    });
     let trusted =
         witnesses.iter().zip(&extents).filter(|(w, _)| w.is_trusted).map(|(_, extent)| extent).sum();
     let all: f64 = extents.iter().sum();
     let mut candidates: Vec<Candidate> = Vec::new();
-    let mut proposals = Proposals { witnesses, order: &order, prior, made: Vec::new(), has_begun: false };
+    let mut proposals =
+        Proposals { witnesses, extents: &extents, prior, order: Vec::new(), asked: 0, made: Vec::new() };
     while let Some(view) = proposals.next() {
         let candidate = support(witnesses, &extents, view, prior);
         // What most of the world says, and of what is trusted, needs no rival to be compared with.
@@ -128,25 +124,23 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
 /// Different views that witnesses propose, heaviest first: made one by one, for mostly the first will do.
 struct Proposals<'a> {
     witnesses: &'a [Witness<'a>],
-    /// Witnesses that were not asked yet.
-    order: &'a [usize],
+    extents: &'a [f64],
     prior: &'a Prior,
+    /// Witnesses, what says most first: the first one, or all of them once more were needed.
+    order: Vec<usize>,
+    /// How many of them were asked.
+    asked: usize,
     made: Vec<DMat4>,
-    has_begun: bool,
 }
 
 impl Proposals<'_> {
     fn next(&mut self) -> Option<DMat4> {
-        if !std::mem::replace(&mut self.has_begun, true) {
+        if self.made.is_empty() && self.asked == 0 && self.prior.base.is_some() {
             self.made.extend(self.prior.base);
-            if self.prior.base.is_some() {
-                return self.prior.base;
-            }
+            return self.prior.base;
         }
-        while let (Some((&index, rest)), true) = (self.order.split_first(), self.made.len() < MOST_PROPOSALS)
-        {
-            self.order = rest;
-            let witness = &self.witnesses[index];
+        while self.made.len() < MOST_PROPOSALS {
+            let witness = &self.witnesses[self.witness()?];
             let is_known = |view: &DMat4| witness.agrees(*view, self.prior.focal, SAME * TOLERANCE);
             if self.made.iter().any(is_known) {
                 continue;
@@ -157,6 +151,25 @@ impl Proposals<'_> {
             }
         }
         None
+    }
+
+    /// The witness to ask next.
+    fn witness(&mut self) -> Option<usize> {
+        let by_weight = |a: &usize, b: &usize| {
+            let trusted = self.witnesses[*b].is_trusted.cmp(&self.witnesses[*a].is_trusted);
+            trusted.then(self.extents[*b].total_cmp(&self.extents[*a])).then(a.cmp(b))
+        };
+        let all = 0..self.witnesses.len();
+        match self.asked {
+            0 => self.order = all.min_by(by_weight).into_iter().collect(),
+            1 => {
+                self.order = all.collect();
+                self.order.sort_by(by_weight);
+            }
+            _ => {}
+        }
+        self.asked += 1;
+        self.order.get(self.asked - 1).copied()
     }
 }
 

@@ -106,7 +106,8 @@ impl Formers {
         std::mem::swap(&mut self.before, &mut self.now);
         (self.noted, self.frame) = (0, frame);
         for (kind, waiting) in &mut self.now {
-            let is_awaited = |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
+            let is_awaited =
+                |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
             waiting.retain(is_awaited);
             if !waiting.is_empty() {
                 self.before.entry(*kind).or_default().append(waiting);
@@ -231,8 +232,10 @@ impl Formers {
         }
     }
 
-    /// Forgets everything: the world is another.
-    pub fn clear(&mut self) {
-        *self = Formers::default();
+    /// Objects have other numbers, or are forgotten.
+    pub fn renumber(&mut self, numbers: &[Option<u32>]) {
+        for former in self.before.values_mut().chain(self.now.values_mut()).flatten() {
+            former.object = former.object.and_then(|object| *numbers.get(object as usize)?);
+        }
     }
 }

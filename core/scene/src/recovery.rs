@@ -144,8 +144,8 @@ impl Recovery {
 
     fn scene(&mut self, frame: &mut Frame, ended: &mut dyn FnMut(Phase)) -> Scene {
         if self.tracker.objects.is_full() {
-            self.tracker.begin_anew();
-            self.shapes.clear();
+            let numbers = self.tracker.forget_unseen();
+            self.shapes.renumber(&numbers);
         }
         let pieces = self.shapes.cut(frame, &self.images, &mut self.tracker.objects, draws::may_be_solid);
         ended(Phase::Shapes);

@@ -137,12 +137,17 @@ impl Shapes {
         pieces
     }
 
-    /// Forgets everything: the world is another.
-    pub fn clear(&mut self) {
-        self.triangles.clear();
+    /// Objects have other numbers, or are forgotten: so are their triangles then.
+    pub fn renumber(&mut self, numbers: &[Option<u32>]) {
+        let renumber = |object: &mut u32| {
+            let number = numbers.get(*object as usize).copied().flatten();
+            *object = number.unwrap_or(0);
+            number.is_some()
+        };
+        self.triangles.retain(|_, seen| renumber(&mut seen.object));
+        self.sprites.retain(|_, object| renumber(object));
+        self.formers.renumber(numbers);
         self.plans.clear();
-        self.sprites.clear();
-        self.formers.clear();
     }
 
     fn next_frame(&mut self) {
@@ -278,7 +283,8 @@ impl Shapes {
     ) -> Arc<[Stretch]> {
         let (content, marks) = (&surveyed.found.content, &surveyed.marks);
         if content.keys.is_empty() {
-            return [Stretch { first: 0, count: content.triangles, known: Known::Mesh, content: None }].into();
+            return [Stretch { first: 0, count: content.triangles, known: Known::Mesh, content: None }]
+                .into();
         }
         if let Some((plan, _)) = self.plans.get(&surveyed.found.bytes).filter(|_| surveyed.is_planned) {
             return plan.clone();

@@ -223,10 +223,9 @@ impl Tracker {
         self.objects.all().any(Object::is_trusted)
     }
 
-    /// Forgets all objects, but not the view.
-    pub fn begin_anew(&mut self) {
-        self.objects.clear();
-        self.epoch += 1;
+    /// Forgets objects that were unseen longest. Returns the new number of each that is left.
+    pub fn forget_unseen(&mut self) -> Vec<Option<u32>> {
+        self.objects.forget_unseen(self.frame)
     }
 
     fn begin_world(&mut self) {

@@ -37,7 +37,8 @@ impl Surface<'_> {
     /// Whether a point of its object space may lie on it. What is not a number may be anywhere.
     fn may_hold(&self, point: Vec3) -> bool {
         let (centre, reach) = self.ball;
-        !(centre.distance_squared(point) > reach)
+        let away = centre.distance_squared(point);
+        away <= reach || away.is_nan()
     }
 
     fn has(&mut self, frame: &Frame, key: u64, cache: &mut ContentCache) -> bool {

@@ -2,6 +2,7 @@
 
 mod gl;
 mod gl_client;
+mod scene;
 mod xlib;
 
 use clap::{Args, Subcommand};
@@ -19,6 +20,8 @@ pub struct Arguments {
 enum What {
     /// What OpenGL calls cost a program's thread, beside Mesa's front end with nothing behind it. Needs an X server.
     Gl(gl::Arguments),
+    /// What understanding frames costs, beside playing and copying them: of traces, and of worlds that grow.
+    Scene(scene::Arguments),
     /// One side of `gl`: measures the libGL that is found first, and prints the figures as JSON.
     #[command(hide = true)]
     GlClient(gl_client::Arguments),
@@ -28,6 +31,7 @@ enum What {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.what {
         What::Gl(arguments) => gl::run(arguments),
+        What::Scene(arguments) => scene::run(arguments),
         What::GlClient(arguments) => gl_client::run(arguments),
     }
 }

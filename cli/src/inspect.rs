@@ -6,7 +6,7 @@
 mod calls;
 mod draws;
 mod paint;
-mod play;
+pub mod play;
 mod propose;
 mod rows;
 mod summary;

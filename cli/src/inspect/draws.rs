@@ -76,7 +76,7 @@ impl Visitor for Inspection<'_> {
 
 impl Inspection<'_> {
     fn shown(&mut self, index: u64, judged: Judged, recovery: &Recovery) -> Result<(), Failure> {
-        let Judged { frame, scene, time } = judged;
+        let Judged { frame, scene, time, .. } = judged;
         self.report.summary.add(&scene, time);
         if let Some(proposal) = &mut self.proposal {
             proposal.add(&frame, &scene, recovery);

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
 use afterglow_player::{Player, TraceSummary};
-use afterglow_scene::{Recovery, Scene};
+use afterglow_scene::{Phase, Recovery, Scene};
 use afterglow_trace::TraceReader;
 use parking_lot::Mutex;
 
@@ -24,6 +24,21 @@ pub struct Judged {
     pub scene: Scene,
     /// How long that took.
     pub time: Duration,
+    /// How long each phase took, in the order of [`Phase::ALL`].
+    pub phases: Phases,
+}
+
+/// Durations by phase, in the order of [`Phase::ALL`].
+pub type Phases = [Duration; Phase::ALL.len()];
+
+/// Understands a frame, and times the phases.
+pub fn understand(recovery: &mut Recovery, frame: &mut Frame) -> (Scene, Phases) {
+    let (mut phases, mut last) = (Phases::default(), Instant::now());
+    let scene = recovery.understand_watched(frame, &mut |phase| {
+        let now = Instant::now();
+        phases[phase as usize] += now - std::mem::replace(&mut last, now);
+    });
+    (scene, phases)
 }
 
 /// What contexts handed over, in order.
@@ -96,9 +111,9 @@ impl Judge {
 
     fn shown(&mut self) {
         let Some(mut frame) = self.begun.take() else { return };
-        let start = Instant::now();
-        let scene = self.recovery.understand(&mut frame);
-        self.events.push(Event::Shown(Box::new(Judged { frame, scene, time: start.elapsed() })));
+        let (scene, phases) = understand(&mut self.recovery, &mut frame);
+        let time = phases.iter().sum();
+        self.events.push(Event::Shown(Box::new(Judged { frame, scene, time, phases })));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Where an image is opaque: programs paint windows and bodies of cars into one texture, and blend all of it.
 
-use afterglow_gl::frame::{Draw, Frame, ImageShape, Slot, UnitWords};
+use afterglow_gl::frame::{Draw, Frame, ImageShape, Slot};
 use glam::Vec2;
 
 use crate::geometry::Attribute;
@@ -55,13 +55,10 @@ impl AlphaMap {
         f32::from(self.opaque[index as usize]) / 255.0
     }
 
-    /// Whether what a draw shows of the image on a unit is opaque, but for little.
-    pub fn is_opaque_in(&self, frame: &Frame, draw: &Draw, unit: usize, words: &UnitWords) -> bool {
+    /// Whether what a draw shows of the image by its coordinates of a unit is opaque, but for little.
+    pub fn is_opaque_in(&self, frame: &Frame, draw: &Draw, unit: usize) -> bool {
         let slot = Slot::Texture0 as usize + unit;
         let Some(coordinates) = Attribute::of(frame, draw, slot) else { return false };
-        if words.gen_s() != 0 || words.gen_t() != 0 || words.matrix() != 0 {
-            return false;
-        }
         let triangles = coordinates.len() / 3;
         let looked_up = triangles.min(LOOKED_UP);
         let (mut sum, mut count) = (0.0, 0.0);

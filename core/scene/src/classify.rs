@@ -4,7 +4,7 @@ use afterglow_gl::frame::{CombineFunction, EnvMode, Format, Frame, Slot, Stencil
 use glam::{DMat3, DMat4, DVec3, Mat4};
 
 use crate::draws::{DepthUse, DrawFacts, TransformFacts};
-use crate::geometry::{has_varying_colors, mean_color};
+use crate::geometry::{ContentCache, mean_color};
 use crate::matrix;
 use crate::objects::Motion;
 use crate::opacity::Mixing;
@@ -30,7 +30,8 @@ struct Classifier<'a> {
     transforms: &'a [TransformFacts],
     views: &'a Views,
     world: &'a World,
-    surfaces: Surfaces,
+    surfaces: Surfaces<'a>,
+    cache: &'a mut ContentCache,
     /// Diagonal of the ground that was drawn before everything else; 0 without.
     ground: f64,
     /// Something of the world is seen in a mirror.
@@ -46,6 +47,7 @@ struct Classifier<'a> {
 }
 
 /// The verdicts on all draws of a frame, in order.
+#[expect(clippy::too_many_arguments, reason = "what each step before found, read once")]
 pub fn classify<'a>(
     frame: &'a Frame,
     transforms: &'a [TransformFacts],
@@ -54,6 +56,7 @@ pub fn classify<'a>(
     draws: &'a [DrawFacts<'a>],
     tracks: &'a [Option<Track>],
     shown: Vec<Shown>,
+    cache: &'a mut ContentCache,
 ) -> Vec<Verdict> {
     let candidates = draws
         .iter()
@@ -66,6 +69,7 @@ pub fn classify<'a>(
         views,
         world,
         surfaces,
+        cache,
         ground: 0.0,
         has_mirrors: draws.iter().any(|facts| world.mirrors(facts, transforms)),
         shown,
@@ -94,7 +98,7 @@ fn bake_below_lightmaps(frame: &Frame, draws: &[DrawFacts], multiplied: &[u32], 
 }
 
 impl<'a> Classifier<'a> {
-    fn verdict(&mut self, facts: &DrawFacts, track: Option<&'a Track>) -> Verdict {
+    fn verdict(&mut self, facts: &'a DrawFacts<'a>, track: Option<&'a Track>) -> Verdict {
         let modelview = self.transform(facts).modelview_hash;
         (self.track, self.base) = (track, None);
         let (class, reason) = self.find(facts);
@@ -329,7 +333,7 @@ impl<'a> Classifier<'a> {
         self.base = self.surfaces.same(self.frame, facts.draw, modelview);
         let below = match self.base {
             Some(base) => vec![base],
-            None => self.surfaces.below(self.frame, facts.draw, modelview)?,
+            None => self.surfaces.below(self.frame, facts, modelview, self.cache)?,
         };
         if mixing == Mixing::Multiply {
             self.multiplied.extend(below);
@@ -416,7 +420,7 @@ impl<'a> Classifier<'a> {
 
     /// Whether a draw's colours are light that the program computed beforehand: unlit, and either a
     /// texture with coordinates of its own multiplies another one, or the vertices differ in colour.
-    fn is_baked(&self, facts: &DrawFacts) -> bool {
+    fn is_baked(&mut self, facts: &DrawFacts) -> bool {
         let words = &self.frame.fixed[facts.draw.fixed as usize].words;
         if words.is_lit() {
             return false;
@@ -431,6 +435,6 @@ impl<'a> Classifier<'a> {
         let mut textures = words.units.iter().enumerate().filter(|(_, unit)| unit.target() != 0);
         let has_lightmap = textures.next().is_some()
             && textures.any(|(i, unit)| unit.gen_s() == 0 && has_coordinates(i) && modulates(unit));
-        has_lightmap || has_varying_colors(self.frame, facts.draw)
+        has_lightmap || self.cache.has_varying_colors(self.frame, facts.draw, facts.content)
     }
 }

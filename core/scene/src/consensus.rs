@@ -30,9 +30,9 @@ pub struct Witness<'a> {
     /// Vertices, object space.
     pub samples: &'a [glam::Vec3],
     /// Object to eye space, now.
-    pub eye: DMat4,
+    pub eye: &'a DMat4,
     /// Object to world space, as it was.
-    pub model: DMat4,
+    pub model: &'a DMat4,
     /// Names its mesh.
     pub mesh: u64,
     /// It has stood still for some frames.
@@ -41,17 +41,17 @@ pub struct Witness<'a> {
 
 impl Witness<'_> {
     fn proposal(&self) -> Option<DMat4> {
-        let view = self.eye * self.model.inverse();
+        let view = *self.eye * self.model.inverse();
         matrix::similarity(view).filter(|s| s.scale == 1.0).map(|s| s.rigid)
     }
 
     fn agrees(&self, view: DMat4, focal: f64, pixels: f64) -> bool {
-        agrees(self.samples, view * self.model, self.eye, focal, pixels)
+        agrees(self.samples, view * *self.model, *self.eye, focal, pixels)
     }
 
     /// Largest distance of where a view puts it from where it is, pixels.
     pub fn error(&self, view: DMat4, focal: f64) -> f64 {
-        error(self.samples, view * self.model, self.eye, focal)
+        error(self.samples, view * *self.model, *self.eye, focal)
     }
 }
 
@@ -100,17 +100,14 @@ struct Candidate {
 /// Finds the view on which witnesses agree; nothing where there is none.
 pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
     let extents: Vec<f64> = witnesses.iter().map(extent).collect();
-    let mut order: Vec<usize> = (0..witnesses.len()).collect();
-    order.sort_by(|&a, &b| {
-        let trusted = witnesses[b].is_trusted.cmp(&witnesses[a].is_trusted);
-        trusted.then(extents[b].total_cmp(&extents[a])).then(a.cmp(&b))
-    });
     let trusted =
         witnesses.iter().zip(&extents).filter(|(w, _)| w.is_trusted).map(|(_, extent)| extent).sum();
     let all: f64 = extents.iter().sum();
     let mut candidates: Vec<Candidate> = Vec::new();
-    for view in proposals(witnesses, &order, prior) {
-        let candidate = weigh(witnesses, &extents, view, prior);
+    let mut proposals =
+        Proposals { witnesses, extents: &extents, prior, order: Vec::new(), asked: 0, made: Vec::new() };
+    while let Some(view) = proposals.next() {
+        let candidate = support(witnesses, &extents, view, prior);
         // What most of the world says, and of what is trusted, needs no rival to be compared with.
         let reach: f64 = candidate.supporters.iter().map(|index| extents[*index]).sum();
         if candidate.trusted > ENOUGH * trusted && 2.0 * reach > all {
@@ -119,37 +116,81 @@ pub fn find(witnesses: &[Witness], prior: &Prior) -> Option<DMat4> {
         candidates.push(candidate);
     }
     candidates.retain(|candidate| !candidate.supporters.is_empty());
+    candidates.iter_mut().for_each(|candidate| candidate.weight = weight(witnesses, candidate));
     let chosen = choose(&candidates, trusted, prior)?;
     Some(refine(witnesses, &extents, chosen, prior))
 }
 
-/// Different views that witnesses propose, heaviest first.
-fn proposals(witnesses: &[Witness], order: &[usize], prior: &Prior) -> Vec<DMat4> {
-    let mut proposals: Vec<DMat4> = prior.base.into_iter().collect();
-    for &index in order {
-        if proposals.len() >= MOST_PROPOSALS {
-            break;
-        }
-        let witness = &witnesses[index];
-        let is_known = |view: &DMat4| witness.agrees(*view, prior.focal, SAME * TOLERANCE);
-        if !proposals.iter().any(is_known) {
-            proposals.extend(witness.proposal());
-        }
-    }
-    proposals
+/// Different views that witnesses propose, heaviest first: made one by one, for mostly the first will do.
+struct Proposals<'a> {
+    witnesses: &'a [Witness<'a>],
+    extents: &'a [f64],
+    prior: &'a Prior,
+    /// Witnesses, what says most first: the first one, or all of them once more were needed.
+    order: Vec<usize>,
+    /// How many of them were asked.
+    asked: usize,
+    made: Vec<DMat4>,
 }
 
-fn weigh(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> Candidate {
+impl Proposals<'_> {
+    fn next(&mut self) -> Option<DMat4> {
+        if self.made.is_empty() && self.asked == 0 && self.prior.base.is_some() {
+            self.made.extend(self.prior.base);
+            return self.prior.base;
+        }
+        while self.made.len() < MOST_PROPOSALS {
+            let witness = &self.witnesses[self.witness()?];
+            let is_known = |view: &DMat4| witness.agrees(*view, self.prior.focal, SAME * TOLERANCE);
+            if self.made.iter().any(is_known) {
+                continue;
+            }
+            if let Some(view) = witness.proposal() {
+                self.made.push(view);
+                return Some(view);
+            }
+        }
+        None
+    }
+
+    /// The witness to ask next.
+    fn witness(&mut self) -> Option<usize> {
+        let by_weight = |a: &usize, b: &usize| {
+            let trusted = self.witnesses[*b].is_trusted.cmp(&self.witnesses[*a].is_trusted);
+            trusted.then(self.extents[*b].total_cmp(&self.extents[*a])).then(a.cmp(b))
+        };
+        let all = 0..self.witnesses.len();
+        match self.asked {
+            0 => self.order = all.min_by(by_weight).into_iter().collect(),
+            1 => {
+                self.order = all.collect();
+                self.order.sort_by(by_weight);
+            }
+            _ => {}
+        }
+        self.asked += 1;
+        self.order.get(self.asked - 1).copied()
+    }
+}
+
+/// A view with the witnesses that agree with it, not weighed yet.
+fn support(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> Candidate {
     let mut candidate = Candidate { view, weight: 0.0, trusted: 0.0, supporters: Vec::new() };
+    for (index, witness) in witnesses.iter().enumerate() {
+        if witness.agrees(view, prior.focal, TOLERANCE) {
+            candidate.supporters.push(index);
+            candidate.trusted += if witness.is_trusted { extents[index] } else { 0.0 };
+        }
+    }
+    candidate
+}
+
+/// How much what agrees with a view reaches, and how many meshes there are of it.
+fn weight(witnesses: &[Witness], candidate: &Candidate) -> f64 {
     let (mut space, mut screen) = (Span::<3>::default(), Span::<2>::default());
     let mut meshes = HashSet::new();
-    for (index, witness) in witnesses.iter().enumerate() {
-        if !witness.agrees(view, prior.focal, TOLERANCE) {
-            continue;
-        }
-        candidate.supporters.push(index);
+    for witness in candidate.supporters.iter().map(|index| &witnesses[*index]) {
         meshes.insert(witness.mesh);
-        candidate.trusted += if witness.is_trusted { extents[index] } else { 0.0 };
         for sample in witness.samples {
             let seen = witness.eye.transform_point3(sample.as_dvec3());
             space.add(seen.to_array());
@@ -159,9 +200,7 @@ fn weigh(witnesses: &[Witness], extents: &[f64], view: DMat4, prior: &Prior) -> 
         }
     }
     let shown = DVec2::from_array(screen.sides()).length() / 8f64.sqrt();
-    candidate.weight =
-        DVec3::from_array(space.sides()).length() * (meshes.len() as f64).sqrt() * (0.1 + shown);
-    candidate
+    DVec3::from_array(space.sides()).length() * (meshes.len() as f64).sqrt() * (0.1 + shown)
 }
 
 /// The candidate that is the camera; `trusted` is what all trusted witnesses reach.
@@ -220,9 +259,9 @@ pub fn turned_alike(a: DMat4, b: DMat4) -> bool {
 /// mean of all.
 fn refine(witnesses: &[Witness], extents: &[f64], chosen: &Candidate, prior: &Prior) -> DMat4 {
     let of = |index: &usize| &witnesses[*index];
-    let exact = chosen.supporters.iter().filter(|i| of(i).model == DMat4::IDENTITY);
+    let exact = chosen.supporters.iter().filter(|i| *of(i).model == DMat4::IDENTITY);
     if let Some(best) = exact.max_by(|a, b| extents[**a].total_cmp(&extents[**b]).then(b.cmp(a))) {
-        return matrix::orthonormal(of(best).eye);
+        return matrix::orthonormal(*of(best).eye);
     }
     // What moves slowly agrees as well, but not as closely as what stands still.
     let rank = |i: usize| (witnesses[i].is_trusted, extents[i]);

@@ -4,17 +4,19 @@
 //! key* of texture coordinates and of how its indices differ, without positions: what stays when an animated mesh
 //! moves. Sums of these over a draw do not depend on order. Content is hashed once while it stays what it is.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use afterglow_gl::frame::{Draw, Frame, Slot, VertexSource};
 use glam::{Vec3, Vec4};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
-use crate::geometry::{Attribute, mix};
+use crate::geometry::{Attribute, mix, mix_pairs, pairs, sample_positions};
 
 /// Positions that stand for a draw's when it is seen under matrices.
 pub const SAMPLES: usize = 8;
+/// Positions that are spread over triangles, at most.
+const MOST_SPREAD: usize = 2048;
 /// Frames that content of the frame's own memory is remembered after it was drawn last.
 const KEPT: u32 = 8;
 
@@ -35,6 +37,8 @@ pub struct Content {
     pub samples: [Vec3; SAMPLES],
     /// Position key of each triangle; none for retained ranges, which are known as a whole.
     pub keys: Box<[u64]>,
+    /// Positions spread evenly over the triangles, once somebody has asked for them.
+    spread: OnceLock<Box<[Vec3]>>,
 }
 
 impl Content {
@@ -64,22 +68,43 @@ impl Content {
         let others = [3 * first as usize, middle].map(|i| positions.get(i).map_or(Vec3::NAN, affine));
         let (centre, extent, samples) = outermost.finish(others)?;
         let keys = keys.into();
-        Some(Content { positions: sum, topology, triangles: count, centre, extent, samples, keys })
+        let spread = OnceLock::new();
+        Some(Content { positions: sum, topology, triangles: count, centre, extent, samples, keys, spread })
+    }
+
+    /// Positions spread evenly over the triangles, object space, more of them where there are more triangles. `draw` draws
+    /// exactly these.
+    pub fn spread(&self, frame: &Frame, draw: &Draw) -> &[Vec3] {
+        self.spread.get_or_init(|| sample_positions(frame, draw, spread_of(draw)).collect())
+    }
+
+    /// Middle of a ball about the triangles, object space, and its radius squared.
+    pub fn ball(&self) -> (Vec3, f32) {
+        let radius = 0.51 * self.extent;
+        (self.centre, radius * radius)
     }
 }
 
+/// How many positions stand for a draw's where it matters how far it reaches.
+pub fn spread_of(draw: &Draw) -> usize {
+    8 + (draw.index_count as usize / 64).min(MOST_SPREAD)
+}
+
 /// A homogeneous position as a point; not a number at infinity.
-fn affine(position: Vec4) -> Vec3 {
+pub fn affine(position: Vec4) -> Vec3 {
     if position.w == 1.0 { position.truncate() } else { position.truncate() / position.w }
 }
 
 /// Key of a triangle's positions, turned so that the smallest is first; a reflected one has another.
-pub fn triangle_key(mut corners: [Vec4; 3]) -> u64 {
-    let order = |corner: &Vec4| (*corner + Vec4::ZERO).to_array().map(f32::to_bits);
-    let smallest = if order(&corners[1]) < order(&corners[0]) { 1 } else { 0 };
-    let smallest = if order(&corners[2]) < order(&corners[smallest]) { 2 } else { smallest };
-    corners.rotate_left(smallest);
-    scatter(corners.into_iter().fold(3, mix))
+pub fn triangle_key(corners: [Vec4; 3]) -> u64 {
+    // Compared and mixed as pairs of coordinates.
+    let [a, b, c] = corners.map(pairs);
+    let (first, second, third) = match (b < a, c < a, c < b) {
+        (true, _, false) => (b, c, a),
+        (true, _, true) | (false, true, _) => (c, a, b),
+        (false, false, _) => (a, b, c),
+    };
+    scatter(mix_pairs(mix_pairs(mix_pairs(3, first), second), third))
 }
 
 fn topology_key(indices: &[u32], coordinates: Option<Attribute>, at: usize) -> u64 {
@@ -192,6 +217,19 @@ impl Contents {
         let content = kept.content.clone()?;
         Some(Found { bytes, content, age: now.wrapping_sub(kept.first) })
     }
+}
+
+/// Hash of what a draw of a range that outlives the frame sends; nothing for others.
+pub fn retained_hash(frame: &Frame, draw: &Draw) -> Option<u64> {
+    match draw.source {
+        VertexSource::Retained { .. } => content_hash(frame, draw),
+        VertexSource::Arena { .. } => None,
+    }
+}
+
+/// Hash of part of what a draw sends.
+pub fn part_hash(bytes: u64, first: u32, count: u32) -> u64 {
+    xxh3_64(bytemuck::bytes_of(&[bytes, u64::from(first) << 32 | u64::from(count)]))
 }
 
 /// Hash of what a draw sends; nothing where its numbers lead out of the frame.

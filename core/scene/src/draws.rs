@@ -4,10 +4,12 @@ use afterglow_gl::frame::{Compare, Draw, FixedState, Frame, Topology, Transform}
 use glam::{DMat4, DVec3};
 use hashbrown::HashMap;
 
+use crate::content::retained_hash;
 use crate::geometry::{ContentCache, sample_positions};
 use crate::images::Images;
 use crate::matrix::{self, Perspective};
 use crate::opacity::{Mixing, mixing};
+use crate::shapes::Piece;
 use crate::views::{Place, Views};
 
 /// How a draw meets the depth buffer.
@@ -51,6 +53,10 @@ pub struct DrawFacts<'a> {
     pub operation: u32,
     /// The draw.
     pub draw: &'a Draw,
+    /// What it was cut into, if it may be solid.
+    pub piece: Option<&'a Piece>,
+    /// Hash of all that its vertices and indices hold, where that is known.
+    pub content: Option<u64>,
     /// View and depth layer.
     pub place: Place,
     /// Triangles; 0 for points and lines.
@@ -145,20 +151,26 @@ fn transform_facts(
 pub fn draws<'a>(
     frame: &'a Frame,
     views: &Views,
+    pieces: &'a [Option<Piece>],
     images: &Images,
     cache: &mut ContentCache,
 ) -> Vec<DrawFacts<'a>> {
-    let placed = frame.draws().zip(&views.places);
-    let facts = placed.map(|((operation, draw), &place)| {
+    cache.next_frame();
+    let placed = frame.draws().zip(&views.places).zip(pieces);
+    let facts = placed.map(|(((operation, draw), &place), piece)| {
+        let piece = piece.as_ref();
+        let content = piece.map(|piece| piece.bytes).or_else(|| retained_hash(frame, draw));
         let FixedState { words, raster } = &frame.fixed[draw.fixed as usize];
         let is_triangles = draw.topology == Topology::Triangles;
         DrawFacts {
             operation: operation as u32,
             draw,
+            piece,
+            content,
             place,
             triangles: if is_triangles { draw.index_count / 3 } else { 0 },
             depth: depth_use(raster.depth),
-            mixing: mixing(frame, draw, images, cache),
+            mixing: mixing(frame, draw, content, images, cache),
             writes_color: raster.color_mask & 7 != 0,
             masked: words.global.clip_planes() != 0 || raster.stencil.is_some(),
             depth_range: frame.viewports[draw.viewport as usize].depth_range,

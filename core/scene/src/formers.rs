@@ -103,14 +103,19 @@ pub struct Formers {
 impl Formers {
     /// A frame begins: what was noted becomes what was before.
     pub fn next_frame(&mut self, frame: u32) {
-        let waiting = std::mem::replace(&mut self.before, std::mem::take(&mut self.now));
+        std::mem::swap(&mut self.before, &mut self.now);
         (self.noted, self.frame) = (0, frame);
-        for (kind, formers) in waiting {
-            let awaited = |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
-            let mut awaited: Vec<Former> = formers.into_iter().filter(awaited).collect();
-            if !awaited.is_empty() {
-                self.before.entry(kind).or_default().append(&mut awaited);
+        for (kind, waiting) in &mut self.now {
+            let is_awaited =
+                |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
+            waiting.retain(is_awaited);
+            if !waiting.is_empty() {
+                self.before.entry(*kind).or_default().append(waiting);
             }
+        }
+        // What is of the same kinds as ever finds its places again; others' are given back now and then.
+        if frame.is_multiple_of(AWAITED) {
+            self.now.clear();
         }
     }
 
@@ -121,7 +126,7 @@ impl Formers {
 
     /// Whether something of the same kind was there.
     pub fn have(&self, content: &Content, texture: u64) -> bool {
-        self.before.contains_key(&kind_of(content, texture))
+        self.before.get(&kind_of(content, texture)).is_some_and(|formers| !formers.is_empty())
     }
 
     /// Finds what fresh triangles were before, the nearest first. `is_drawn` tells whether a triangle is in this frame.
@@ -141,7 +146,7 @@ impl Formers {
             );
         }
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.3.cmp(&b.3)));
-        let mut fresh = fresh;
+        let (mut fresh, mut taken) = (fresh, HashSet::new());
         for (_, index, kind, at) in pairs {
             let Some(former) = self.before.get_mut(&kind).and_then(|formers| formers.get_mut(at)) else {
                 continue;
@@ -149,12 +154,13 @@ impl Formers {
             let (_, _, slot) = &mut fresh[index];
             if slot.is_none() && !former.is_taken {
                 former.is_taken = true;
+                taken.insert(kind);
                 let corners = std::mem::take(&mut former.corners);
                 **slot = Some(Former { corners, ..former.clone() });
             }
         }
-        for formers in self.before.values_mut() {
-            formers.retain(|former| !former.is_taken);
+        for kind in taken {
+            self.before.entry(kind).and_modify(|formers| formers.retain(|former| !former.is_taken));
         }
     }
 
@@ -226,8 +232,10 @@ impl Formers {
         }
     }
 
-    /// Forgets everything: the world is another.
-    pub fn clear(&mut self) {
-        *self = Formers::default();
+    /// Objects have other numbers, or are forgotten.
+    pub fn renumber(&mut self, numbers: &[Option<u32>]) {
+        for former in self.before.values_mut().chain(self.now.values_mut()).flatten() {
+            former.object = former.object.and_then(|object| *numbers.get(object as usize)?);
+        }
     }
 }

@@ -1,6 +1,9 @@
 //! Vertices of draws as far as understanding needs them: samples of positions, colours, hashes of content.
 
-use afterglow_gl::frame::{Draw, Format, Frame, Slot, VertexSource};
+use std::hash::Hash;
+use std::sync::Arc;
+
+use afterglow_gl::frame::{Draw, Format, Frame, Slot};
 use glam::{Vec3, Vec4};
 use hashbrown::HashMap;
 
@@ -11,6 +14,8 @@ pub struct Attribute<'a> {
     indices: &'a [u32],
     stride: usize,
     offset: usize,
+    /// Words of a value.
+    count: usize,
     format: Format,
 }
 
@@ -20,7 +25,8 @@ impl<'a> Attribute<'a> {
         let format = draw.layout.format(slot);
         let (words, indices) = frame.geometry(draw);
         let (stride, offset) = (draw.layout.stride(), draw.layout.offset(slot));
-        (format != Format::Absent).then_some(Attribute { words, indices, stride, offset, format })
+        let count = format.words();
+        (format != Format::Absent).then_some(Attribute { words, indices, stride, offset, count, format })
     }
 
     /// Number of indices.
@@ -30,17 +36,20 @@ impl<'a> Attribute<'a> {
 
     /// Value at the `i`th index, components that are not stored as OpenGL has them. Nothing when the
     /// index is out of range.
+    #[inline]
     pub fn get(&self, i: usize) -> Option<Vec4> {
         let start = *self.indices.get(i)? as usize * self.stride + self.offset;
-        let words = self.words.get(start..start + self.format.words())?;
-        let mut value = Vec4::W;
-        if self.format == Format::Unorm8x4 {
-            return Some(Vec4::from_array(words[0].to_le_bytes().map(f32::from)) / 255.0);
-        }
-        for (component, word) in words.iter().enumerate() {
-            value[component] = f32::from_bits(*word);
-        }
-        Some(value)
+        let f = f32::from_bits;
+        Some(match *self.words.get(start..start + self.count)? {
+            [x, y, z] => Vec4::new(f(x), f(y), f(z), 1.0),
+            [x, y] => Vec4::new(f(x), f(y), 0.0, 1.0),
+            [x, y, z, w] => Vec4::new(f(x), f(y), f(z), f(w)),
+            [bytes] if self.format == Format::Unorm8x4 => {
+                Vec4::from_array(bytes.to_le_bytes().map(f32::from)) / 255.0
+            }
+            [x] => Vec4::new(f(x), 0.0, 0.0, 1.0),
+            _ => Vec4::W,
+        })
     }
 
     /// Up to `count` values spread evenly over the indices, first and last included.
@@ -100,45 +109,90 @@ pub fn is_one(alpha: f32) -> bool {
     alpha > 1.0 - 0.5 / 255.0
 }
 
-/// Names the content of a draw in a retained range.
-pub type RetainedKey = (u64, u32, u32);
-
-/// The content of a draw that outlives the frame, if it does.
-pub fn retained_key(frame: &Frame, draw: &Draw) -> Option<RetainedKey> {
-    match draw.source {
-        VertexSource::Arena { .. } => None,
-        VertexSource::Retained { range, first_index } => {
-            Some((frame.retained.get(range as usize)?.id(), first_index, draw.index_count))
-        }
-    }
-}
-
-/// Facts on retained content, found once. Bounded: started anew when it grows large.
+/// Facts on vertices that are asked for in each frame, found once for each content. What nobody asks for is forgotten.
 #[derive(Debug, Default)]
 pub struct ContentCache {
-    opaque_colors: HashMap<RetainedKey, bool>,
+    opaque_colors: Generations<u64, bool>,
+    varying_colors: Generations<u64, bool>,
+    opaque_texels: Generations<(u64, u64, usize), bool>,
+    triangle_keys: Generations<u64, Arc<[u64]>>,
+    frames: u32,
 }
 
-/// Entries of each table after which it is started anew (programs make ranges without end).
-const CACHE_ENTRIES: usize = 1 << 16;
+/// Frames from one generation of a cache to the next.
+const GENERATION: u32 = 32;
 
 impl ContentCache {
-    /// Whether all vertices of a draw, or its current colour, have an alpha of one.
-    pub fn has_opaque_colors(&mut self, frame: &Frame, draw: &Draw) -> bool {
-        let stored = draw.layout.format(Slot::Color as usize) != Format::Absent;
-        match retained_key(frame, draw).filter(|_| stored) {
-            None => has_opaque_colors(frame, draw),
-            Some(key) => {
-                bound(&mut self.opaque_colors);
-                *self.opaque_colors.entry(key).or_insert_with(|| has_opaque_colors(frame, draw))
-            }
+    /// A frame begins.
+    pub fn next_frame(&mut self) {
+        self.frames = self.frames.wrapping_add(1);
+        if self.frames.is_multiple_of(GENERATION) {
+            self.opaque_colors.age();
+            self.varying_colors.age();
+            self.opaque_texels.age();
+            self.triangle_keys.age();
         }
+    }
+
+    /// Whether all vertices of a draw, or its current colour, have an alpha of one. `content` names what the draw holds, if
+    /// that is known.
+    pub fn has_opaque_colors(&mut self, frame: &Frame, draw: &Draw, content: Option<u64>) -> bool {
+        let stored = draw.layout.format(Slot::Color as usize) != Format::Absent;
+        let find = || has_opaque_colors(frame, draw);
+        self.opaque_colors.find(content.filter(|_| stored), find)
+    }
+
+    /// Whether the colours differ among the vertices.
+    pub fn has_varying_colors(&mut self, frame: &Frame, draw: &Draw, content: Option<u64>) -> bool {
+        self.varying_colors.find(content, || has_varying_colors(frame, draw))
+    }
+
+    /// Whether what a draw shows of an image of this content on a unit is opaque, as `find` finds it.
+    pub fn has_opaque_texels(
+        &mut self,
+        content: Option<u64>,
+        image: u64,
+        unit: usize,
+        find: impl FnOnce() -> bool,
+    ) -> bool {
+        self.opaque_texels.find(content.map(|content| (content, image, unit)), find)
+    }
+
+    /// Keys of all triangles of a draw, the smallest first, as `find` finds them in any order.
+    pub fn triangle_keys(&mut self, content: Option<u64>, find: impl FnOnce() -> Vec<u64>) -> Arc<[u64]> {
+        self.triangle_keys.find(content, || {
+            let mut keys = find();
+            keys.sort_unstable();
+            keys.into()
+        })
     }
 }
 
-fn bound<T>(table: &mut HashMap<RetainedKey, T>) {
-    if table.len() >= CACHE_ENTRIES {
-        table.clear();
+/// What was asked for of late, and what was asked for before.
+#[derive(Debug)]
+struct Generations<K, V> {
+    now: HashMap<K, V>,
+    before: HashMap<K, V>,
+}
+
+impl<K, V> Default for Generations<K, V> {
+    fn default() -> Self {
+        Generations { now: HashMap::new(), before: HashMap::new() }
+    }
+}
+
+impl<K: Hash + Eq + Copy, V: Clone> Generations<K, V> {
+    /// The value of a key, found now unless it is known; of no key, found now.
+    fn find(&mut self, key: Option<K>, find: impl FnOnce() -> V) -> V {
+        let Some(key) = key else { return find() };
+        let before = &self.before;
+        let known = self.now.entry(key).or_insert_with(|| before.get(&key).cloned().unwrap_or_else(find));
+        known.clone()
+    }
+
+    /// Forgets what was not asked for since the last time but one.
+    fn age(&mut self) {
+        self.before = std::mem::take(&mut self.now);
     }
 }
 
@@ -154,8 +208,21 @@ pub fn hash_positions(frame: &Frame, draw: &Draw) -> u64 {
 }
 
 /// Folds a position into a hash; -0 is +0.
+#[inline]
 pub fn mix(hash: u64, position: Vec4) -> u64 {
+    mix_pairs(hash, pairs(position))
+}
+
+/// The bits of a position's coordinates x and y, and z and w; -0 is +0.
+#[inline]
+pub fn pairs(position: Vec4) -> (u64, u64) {
     let [x, y, z, w] = (position + Vec4::ZERO).to_array().map(|c| u64::from(c.to_bits()));
-    let folded = (hash ^ (x << 32 | y)).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
-    (folded ^ (z << 32 | w)).wrapping_mul(0xd6e8_feb8_6659_fd93).rotate_left(31)
+    (x << 32 | y, z << 32 | w)
+}
+
+/// As [`mix`], of a position's bits.
+#[inline]
+pub fn mix_pairs(hash: u64, (xy, zw): (u64, u64)) -> u64 {
+    let folded = (hash ^ xy).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
+    (folded ^ zw).wrapping_mul(0xd6e8_feb8_6659_fd93).rotate_left(31)
 }

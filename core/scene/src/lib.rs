@@ -21,6 +21,7 @@ mod memory;
 mod objects;
 mod opacity;
 mod pairing;
+mod phase;
 mod profile;
 mod recovery;
 mod shapes;
@@ -38,6 +39,7 @@ mod views;
 mod world;
 
 pub use images::ImageFacts;
+pub use phase::Phase;
 pub use profile::{Profile, ProfileChoice, ProfileError, shipped as shipped_profiles};
 pub use recovery::Recovery;
 pub use types::*;

@@ -1,11 +1,11 @@
 //! The objects of a world: where each was last, and what its motion says of it.
 
 use glam::{DMat4, Vec3};
-use hashbrown::HashMap;
+use hashbrown::{HashMap, HashSet};
 
 use crate::content::Content;
 
-/// Objects that are known, at most.
+/// Objects from which on those that were unseen longest are forgotten, unless more are in sight.
 const MOST: usize = 1 << 16;
 /// Frames that an object which moved once counts as one that moves.
 const MOVED: u32 = 240;
@@ -47,6 +47,8 @@ pub enum Step {
 pub struct Object {
     /// Its name, the same in all frames and all runs.
     pub id: u64,
+    /// What its name was made of.
+    seed: u64,
     /// Content, middle and extent of its mesh.
     content: u64,
     centre: Vec3,
@@ -69,6 +71,15 @@ pub struct Object {
     stands: bool,
     carried: bool,
     attached: bool,
+}
+
+/// Gives objects in a table their new numbers; what is left without any goes.
+fn renumber<K>(table: &mut HashMap<K, Vec<u32>>, numbers: &[Option<u32>]) {
+    table.retain(|_, objects| {
+        let left = objects.iter().filter_map(|object| *numbers.get(*object as usize)?);
+        *objects = left.collect();
+        !objects.is_empty()
+    });
 }
 
 /// The cube of the world, as large as a mesh, that its middle is in.
@@ -140,12 +151,38 @@ pub struct Objects {
     places: HashMap<(u64, [i32; 3]), Vec<u32>>,
     /// How many objects have begun with the same content and texture: part of their names.
     named: HashMap<u64, u64>,
+    /// How many were left when some were forgotten last.
+    kept: usize,
 }
 
 impl Objects {
-    /// Whether there are so many that all must be forgotten.
+    /// Whether there are so many that some must be forgotten.
     pub fn is_full(&self) -> bool {
-        self.objects.len() > MOST
+        self.objects.len() > MOST.max(2 * self.kept)
+    }
+
+    /// Forgets what was unseen longest, half of what may be known, but nothing that was in sight in `frame` or the one
+    /// before. Returns the new number of each object that is left.
+    pub fn forget_unseen(&mut self, frame: u32) -> Vec<Option<u32>> {
+        let is_in_sight = |object: &&Object| object.seen != 0 && frame.wrapping_sub(object.seen) < 2;
+        let in_sight = self.objects.iter().filter(is_in_sight).count();
+        self.kept = in_sight.max(MOST / 2).min(self.objects.len());
+        let mut order: Vec<usize> = (0..self.objects.len()).collect();
+        // Of those that were never followed, the last ones are the youngest.
+        order.sort_unstable_by_key(|&number| std::cmp::Reverse((self.objects[number].seen, number)));
+        let mut numbers = vec![None; self.objects.len()];
+        order[..self.kept].sort_unstable();
+        for (new, old) in (0..).zip(&order[..self.kept]) {
+            numbers[*old] = Some(new);
+        }
+        let is_left = numbers.clone();
+        let mut is_left = is_left.iter().map(Option::is_some);
+        self.objects.retain(|_| is_left.next().unwrap_or(false));
+        renumber(&mut self.by_content, &numbers);
+        renumber(&mut self.places, &numbers);
+        let seeds: HashSet<u64> = self.objects.iter().map(|object| object.seed).collect();
+        self.named.retain(|seed, _| seeds.contains(seed));
+        numbers
     }
 
     /// A new object of this content; its number.
@@ -157,6 +194,7 @@ impl Objects {
         let number = self.objects.len() as u32;
         self.objects.push(Object {
             id: name.max(1),
+            seed,
             content: content.positions,
             centre: content.centre,
             extent: content.extent,
@@ -173,6 +211,11 @@ impl Objects {
         });
         self.by_content.entry((content.positions, content.triangles)).or_default().push(number);
         number
+    }
+
+    /// How many there are: their numbers are below.
+    pub fn len(&self) -> usize {
+        self.objects.len()
     }
 
     /// The objects that were first seen with this content.
@@ -248,13 +291,5 @@ impl Objects {
             (object.steps, object.moved) = ((Step::Stood, 0), None);
             (object.stands, object.carried, object.attached) = (false, false, false);
         }
-    }
-
-    /// Forgets all objects.
-    pub fn clear(&mut self) {
-        self.objects.clear();
-        self.by_content.clear();
-        self.named.clear();
-        self.places.clear();
     }
 }

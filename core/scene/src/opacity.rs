@@ -24,7 +24,14 @@ pub enum Mixing {
 }
 
 /// What blending makes of a draw, the alpha of its vertices and texels considered.
-pub fn mixing(frame: &Frame, draw: &Draw, images: &Images, cache: &mut ContentCache) -> Mixing {
+/// `content` is the hash of what it holds, where that is known.
+pub fn mixing(
+    frame: &Frame,
+    draw: &Draw,
+    content: Option<u64>,
+    images: &Images,
+    cache: &mut ContentCache,
+) -> Mixing {
     use BlendFactor as F;
     let raster = &frame.fixed[draw.fixed as usize].raster;
     let Some(Blend { rgb, equation_rgb, .. }) = raster.blend else { return Mixing::Opaque };
@@ -33,7 +40,9 @@ pub fn mixing(frame: &Frame, draw: &Draw, images: &Images, cache: &mut ContentCa
     }
     match rgb {
         (F::One, F::Zero) => Mixing::Opaque,
-        (F::SourceAlpha | F::One, F::OneMinusSourceAlpha) => by_alpha(frame, draw, images, cache),
+        (F::SourceAlpha | F::One, F::OneMinusSourceAlpha) => {
+            Fragment { frame, draw, content, images, cache }.by_alpha()
+        }
         (F::DestinationColor, F::Zero | F::SourceColor)
         | (F::Zero, F::SourceColor | F::OneMinusSourceColor)
         | (F::DestinationColor, F::OneMinusSourceAlpha) => Mixing::Multiply,
@@ -42,27 +51,29 @@ pub fn mixing(frame: &Frame, draw: &Draw, images: &Images, cache: &mut ContentCa
     }
 }
 
-fn by_alpha(frame: &Frame, draw: &Draw, images: &Images, cache: &mut ContentCache) -> Mixing {
-    let fragment = Fragment { frame, draw, images };
-    let primary = fragment.primary_alpha_is_one(cache);
-    if fragment.alpha_is_one(primary, ImageFacts::is_opaque) {
-        Mixing::Opaque
-    } else if fragment.alpha_is_one(primary, |i| i.is_opaque() || i.is_cut_out())
-        || (primary && fragment.fails_half_alpha())
-    {
-        Mixing::CutOut
-    } else {
-        Mixing::Blend
-    }
-}
-
 struct Fragment<'a> {
     frame: &'a Frame,
     draw: &'a Draw,
+    content: Option<u64>,
     images: &'a Images,
+    cache: &'a mut ContentCache,
 }
 
 impl Fragment<'_> {
+    /// What blending by alpha amounts to.
+    fn by_alpha(&mut self) -> Mixing {
+        let primary = self.primary_alpha_is_one();
+        if self.alpha_is_one(primary, ImageFacts::is_opaque) {
+            Mixing::Opaque
+        } else if self.alpha_is_one(primary, |i| i.is_opaque() || i.is_cut_out())
+            || (primary && self.fails_half_alpha())
+        {
+            Mixing::CutOut
+        } else {
+            Mixing::Blend
+        }
+    }
+
     /// Whether the alpha test lets only fragments pass that are nearer to opaque than to clear.
     fn fails_half_alpha(&self) -> bool {
         let function = self.frame.fixed[self.draw.fixed as usize].words.global.alpha_func();
@@ -78,26 +89,31 @@ impl Fragment<'_> {
     }
 
     /// Alpha before texturing: the colour's, or the diffuse material's when lit.
-    fn primary_alpha_is_one(&self, cache: &mut ContentCache) -> bool {
+    fn primary_alpha_is_one(&mut self) -> bool {
         let global = self.frame.fixed[self.draw.fixed as usize].words.global;
         if global.lighting() == 0 {
-            return cache.has_opaque_colors(self.frame, self.draw);
+            return self.has_opaque_colors();
         }
         let tracks_diffuse = global.color_material() != 0 && matches!(global.color_material_mode(), 0 | 2);
         let material = self.frame.materials.get(self.draw.material as usize);
         let sides = 1 + global.two_side() as usize;
         (0..sides).all(|side| {
             if tracks_diffuse && global.color_material_faces() >> side & 1 != 0 {
-                cache.has_opaque_colors(self.frame, self.draw)
+                self.has_opaque_colors()
             } else {
                 material.is_none_or(|m| is_one(m.faces[side].diffuse[3]))
             }
         })
     }
 
+    fn has_opaque_colors(&mut self) -> bool {
+        self.cache.has_opaque_colors(self.frame, self.draw, self.content)
+    }
+
     /// Whether the last unit's alpha is one, if a texture's is where `texel_is_one` says so.
-    fn alpha_is_one(&self, primary: bool, texel_is_one: fn(&ImageFacts) -> bool) -> bool {
-        let units = &self.frame.fixed[self.draw.fixed as usize].words.units;
+    fn alpha_is_one(&mut self, primary: bool, texel_is_one: fn(&ImageFacts) -> bool) -> bool {
+        let frame = self.frame;
+        let units = &frame.fixed[self.draw.fixed as usize].words.units;
         let mut previous = primary;
         for (index, unit) in units.iter().enumerate().filter(|(_, unit)| unit.target() != 0) {
             let texel = self.texel_alpha_is_one(index, unit, texel_is_one);
@@ -118,7 +134,7 @@ impl Fragment<'_> {
     }
 
     fn texel_alpha_is_one(
-        &self,
+        &mut self,
         index: usize,
         unit: &UnitWords,
         texel_is_one: fn(&ImageFacts) -> bool,
@@ -129,22 +145,31 @@ impl Fragment<'_> {
         let bindings = self.frame.bindings.get(self.draw.bindings as usize);
         let image = bindings.and_then(|b| b[index]).and_then(|b| self.images.get(b.image));
         image.is_some_and(|image| {
-            let shown =
-                || image.alpha().is_some_and(|alpha| alpha.is_opaque_in(self.frame, self.draw, index, unit));
-            texel_is_one(image) || (self.fills_depth() && shown())
+            texel_is_one(image) || (self.fills_depth() && self.shows_opaque(image, index, unit))
+        })
+    }
+
+    /// Whether what is shown of an image is opaque, but for little.
+    fn shows_opaque(&mut self, image: &ImageFacts, index: usize, unit: &UnitWords) -> bool {
+        let has_plain_coordinates = unit.gen_s() == 0 && unit.gen_t() == 0 && unit.matrix() == 0;
+        let Some(alpha) = image.alpha().filter(|_| has_plain_coordinates) else { return false };
+        let (frame, draw) = (self.frame, self.draw);
+        self.cache.has_opaque_texels(self.content, image.content(), index, || {
+            alpha.is_opaque_in(frame, draw, index)
         })
     }
 
     fn combined(
-        &self,
+        &mut self,
         index: usize,
         unit: &UnitWords,
         primary: bool,
         previous: bool,
         texel_is_one: fn(&ImageFacts) -> bool,
     ) -> bool {
-        let units = &self.frame.fixed[self.draw.fixed as usize].words.units;
-        let source = |which: u32, inverted: u32| {
+        let frame = self.frame;
+        let units = &frame.fixed[self.draw.fixed as usize].words.units;
+        let mut source = |which: u32, inverted: u32| {
             let value = match which {
                 w if w == CombineSource::Previous as u32 => previous,
                 w if w == CombineSource::Primary as u32 => primary,

@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec3};
 use hashbrown::HashMap;
 
+use crate::content::Content;
 use crate::matrix;
 use crate::objects::{Motion, Object, Objects};
 use crate::shapes::Known;
@@ -26,19 +27,17 @@ pub struct Pairing<'a> {
     pub sight: Sight,
 }
 
-impl Pairing<'_> {
+impl<'a> Pairing<'a> {
     /// Pairs draws with objects, as seen under a view: first those that are where they must be, then the others.
     pub fn pair(&self, claims: &mut [Claim]) {
-        let mut taken = Taken::default();
-        let mut cursors: HashMap<(u64, u32), usize> = HashMap::new();
+        let mut taken = Taken::new(self.objects.len());
+        let mut kinds = Kinds::default();
         for is_last in [false, true] {
             for claim in claims.iter_mut().filter(|claim| !is_last || claim.object.is_none()) {
-                let content = &claim.piece.content;
-                let cursor = cursors.entry((content.positions, content.triangles)).or_default();
                 claim.object = match claim.piece.known {
                     Known::Animated(object, _) => Some(object),
-                    Known::Object(object) => self.nearest(claim, Some(object), &taken, cursor, is_last),
-                    Known::Mesh => self.nearest(claim, None, &taken, cursor, is_last),
+                    Known::Object(object) => self.nearest(claim, Some(object), &taken, &mut kinds, is_last),
+                    Known::Mesh => self.nearest(claim, None, &taken, &mut kinds, is_last),
                 };
                 taken.add(claim.object, claim.eye);
             }
@@ -52,14 +51,25 @@ impl Pairing<'_> {
         claim: &Claim,
         own: Option<u32>,
         taken: &Taken,
-        cursor: &mut usize,
+        kinds: &mut Kinds<'a>,
         is_last: bool,
     ) -> Option<u32> {
         let content = &claim.piece.content;
-        let alike = self.objects.of_content(content);
         let place = self.sight.world_from_eye * claim.eye;
         let (centre, extent) = (content.centre.as_dvec3(), f64::from(content.extent) * scale_of(place));
         let centre_now = place.transform_point3(centre);
+        let away = |known: &Object| {
+            self.expected(known, centre).map_or(f64::MAX, |expected| expected.distance(centre_now))
+        };
+        // Mostly it is where it must be.
+        let own_known = own.filter(|object| !taken.has(*object, claim.eye));
+        if own_known
+            .and_then(|object| self.objects.get(object))
+            .is_some_and(|known| away(known) <= AT * extent)
+        {
+            return own;
+        }
+        let (alike, cursor) = kinds.of(self.objects, content);
         let (start, count) = (*cursor, alike.len());
         let in_order = (0..count.min(COMPARED)).map(|step| (start + step) % count);
         let in_order = in_order.map(|at| (at + 1, alike[at]));
@@ -71,8 +81,7 @@ impl Pairing<'_> {
                 continue;
             }
             let Some(known) = self.objects.get(object) else { continue };
-            let away =
-                self.expected(known, centre).map_or(f64::MAX, |expected| expected.distance(centre_now));
+            let away = away(known);
             if away <= AT * extent {
                 *cursor = next;
                 return Some(object);
@@ -104,20 +113,46 @@ impl Pairing<'_> {
     }
 }
 
-/// Objects that are taken, and the matrix under which each is seen.
+/// Objects that are alike, by their content: which, and where the next search begins.
 #[derive(Default)]
-struct Taken(HashMap<u32, DMat4>);
+struct Kinds<'a>(HashMap<(u64, u32), (&'a [u32], usize)>);
+
+impl<'a> Kinds<'a> {
+    fn of(&mut self, objects: &'a Objects, content: &Content) -> (&'a [u32], &mut usize) {
+        let kind = (content.positions, content.triangles);
+        let (alike, cursor) = self.0.entry(kind).or_insert_with(|| (objects.of_content(content), 0));
+        (alike, cursor)
+    }
+}
+
+/// Objects that are taken, and the matrix under which each is seen.
+struct Taken {
+    /// By object: the number of its matrix, counted from 1; 0 if it is free.
+    by_object: Vec<u32>,
+    eyes: Vec<DMat4>,
+}
 
 impl Taken {
+    /// So many objects, all of them free.
+    fn new(objects: usize) -> Taken {
+        Taken { by_object: vec![0; objects], eyes: Vec::new() }
+    }
+
     fn add(&mut self, object: Option<u32>, eye: DMat4) {
-        if let Some(object) = object {
-            self.0.entry(object).or_insert(eye);
+        let Some(number) = object.and_then(|object| self.by_object.get_mut(object as usize)) else { return };
+        if *number == 0 {
+            // Programs draw many things under one matrix, one after the other.
+            if self.eyes.last() != Some(&eye) {
+                self.eyes.push(eye);
+            }
+            *number = self.eyes.len() as u32;
         }
     }
 
     /// Whether an object is somewhere else. Parts of one may be drawn apart, under the same matrix.
     fn has(&self, object: u32, eye: DMat4) -> bool {
-        self.0.get(&object).is_some_and(|other| *other != eye)
+        let number = self.by_object.get(object as usize).copied().unwrap_or(0);
+        number != 0 && self.eyes[number as usize - 1] != eye
     }
 }
 

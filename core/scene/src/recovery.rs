@@ -13,6 +13,7 @@ use crate::hints;
 use crate::images::{ImageFacts, Images};
 use crate::lights::{self, Lighting};
 use crate::memory::{Memory, MemoryCounts};
+use crate::phase::Phase;
 use crate::profile::{Evidence, Overrides, Profile};
 use crate::shapes::Shapes;
 use crate::shown::shown;
@@ -119,31 +120,45 @@ impl Recovery {
 
     /// The scene that a frame draws. Sees to the frame's images as well.
     pub fn understand(&mut self, frame: &mut Frame) -> Scene {
+        self.understand_watched(frame, &mut |_| ())
+    }
+
+    /// As [`understand`](Self::understand), and says when each phase has ended, so that who watches can time them.
+    pub fn understand_watched(&mut self, frame: &mut Frame, ended: &mut dyn FnMut(Phase)) -> Scene {
         self.images.learn(frame);
         self.baked.learn_images(frame);
-        let mut scene = self.scene(frame);
+        ended(Phase::Images);
+        let mut scene = self.scene(frame, ended);
         hints::apply(frame, &mut scene, &mut self.said);
+        ended(Phase::Light);
         if self.overrides.takes_found_lights() {
             self.baked.apply(frame, &mut scene, &self.images, self.tracker.epoch);
             self.overrides.relit(&mut scene);
         }
+        ended(Phase::Baked);
         self.memory.remember(frame, &self.images, &mut scene);
+        ended(Phase::Memory);
         self.images.forget(frame);
         self.baked.forget_images(frame);
+        ended(Phase::Images);
         scene
     }
 
-    fn scene(&mut self, frame: &mut Frame) -> Scene {
+    fn scene(&mut self, frame: &mut Frame, ended: &mut dyn FnMut(Phase)) -> Scene {
         if self.tracker.objects.is_full() {
-            self.tracker.begin_anew();
-            self.shapes.clear();
+            let numbers = self.tracker.forget_unseen();
+            self.shapes.renumber(&numbers);
         }
         let pieces = self.shapes.cut(frame, &self.images, &mut self.tracker.objects, draws::may_be_solid);
+        ended(Phase::Shapes);
         let frame = &*frame;
         let views = Views::split(frame);
         let transforms = draws::transforms(frame);
-        let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
-        let Some(mut world) = World::find(frame, &views, &draws, &transforms, self.viewport) else {
+        let draws = draws::draws(frame, &views, &pieces, &self.images, &mut self.cache);
+        ended(Phase::Facts);
+        let world = World::find(frame, &views, &draws, &transforms, self.viewport);
+        ended(Phase::World);
+        let Some(mut world) = world else {
             let mut scene = flat_scene(&draws);
             let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: None };
             self.overrides.classes(evidence, &self.images, &mut scene.verdicts);
@@ -151,10 +166,13 @@ impl Recovery {
         };
         self.viewport = Some(views.views[world.place].rect);
         let tracks = self.tracker.follow(&draws, &pieces, &transforms, &mut world);
+        ended(Phase::Follow);
         let shown = shown(&views, &draws, &pieces, &transforms, &self.tracker);
-        let mut verdicts = classify(frame, &transforms, &views, &world, &draws, &tracks, shown);
+        let mut verdicts =
+            classify(frame, &transforms, &views, &world, &draws, &tracks, shown, &mut self.cache);
         let evidence = Evidence { frame, draws: &draws, transforms: &transforms, view: Some(world.view) };
         self.overrides.classes(evidence, &self.images, &mut verdicts);
+        ended(Phase::Classify);
         let background = views.views[world.place].background;
         let deformed = deformed(&draws, &verdicts, tracks);
         let lit = self.light(frame, &world, &draws, &transforms, verdicts, background);

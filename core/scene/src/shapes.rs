@@ -9,7 +9,7 @@ use std::sync::Arc;
 use afterglow_gl::frame::{Draw, Frame, Operation, Topology};
 use hashbrown::{HashMap, HashSet};
 
-use crate::content::{Content, Contents, Found};
+use crate::content::{Content, Contents, Found, part_hash};
 use crate::formers::{Former, Formers, SPRITE};
 use crate::images::Images;
 use crate::objects::Objects;
@@ -31,6 +31,8 @@ const PLANNED: u32 = 16;
 pub struct Piece {
     /// What its triangles are.
     pub content: Arc<Content>,
+    /// Hash of all that its vertices and indices hold.
+    pub bytes: u64,
     /// Content of the texture in its first unit, 0 without one.
     pub texture: u64,
     /// What it belongs to.
@@ -52,7 +54,7 @@ pub struct Shapes {
     triangles: HashMap<u64, Seen>,
     formers: Formers,
     /// Stretches of draws all of whose triangles are known, by the hash of their bytes.
-    plans: HashMap<u64, (Vec<Stretch>, u32)>,
+    plans: HashMap<u64, (Arc<[Stretch]>, u32)>,
     /// What sprites of a texture belong to.
     sprites: HashMap<u64, u32>,
     /// Objects that are animated in this frame.
@@ -107,22 +109,25 @@ impl Shapes {
             let Some(Operation::Draw(draw)) = frame.operations.get(surveyed.operation) else { continue };
             let is_known = parts.is_empty();
             let stretches = self.stretches(frame, draw, &surveyed, parts, objects);
-            if let [whole] = stretches.as_slice() {
+            if let [whole] = &*stretches {
                 if let (Known::Object(object), true) = (&whole.known, is_known) {
                     self.formers.note_known(&surveyed.found.content, surveyed.texture, *object, self.frame);
                 }
                 pieces.push(Some(Piece {
                     content: surveyed.found.content,
+                    bytes: surveyed.found.bytes,
                     texture: surveyed.texture,
                     known: whole.known.clone(),
                 }));
                 continue;
             }
             cuts.push((surveyed.operation, stretches.iter().map(|s| (s.first, s.count)).collect()));
-            for stretch in stretches {
+            for stretch in stretches.iter().cloned() {
                 let content =
                     stretch.content.or_else(|| content_of(frame, draw, stretch.first, stretch.count));
-                let piece = |content| Piece { content, texture: surveyed.texture, known: stretch.known };
+                let bytes = part_hash(surveyed.found.bytes, stretch.first, stretch.count);
+                let piece =
+                    |content| Piece { content, bytes, texture: surveyed.texture, known: stretch.known };
                 pieces.push(content.map(piece));
             }
         }
@@ -132,12 +137,17 @@ impl Shapes {
         pieces
     }
 
-    /// Forgets everything: the world is another.
-    pub fn clear(&mut self) {
-        self.triangles.clear();
+    /// Objects have other numbers, or are forgotten: so are their triangles then.
+    pub fn renumber(&mut self, numbers: &[Option<u32>]) {
+        let renumber = |object: &mut u32| {
+            let number = numbers.get(*object as usize).copied().flatten();
+            *object = number.unwrap_or(0);
+            number.is_some()
+        };
+        self.triangles.retain(|_, seen| renumber(&mut seen.object));
+        self.sprites.retain(|_, object| renumber(object));
+        self.formers.renumber(numbers);
         self.plans.clear();
-        self.sprites.clear();
-        self.formers.clear();
     }
 
     fn next_frame(&mut self) {
@@ -270,10 +280,11 @@ impl Shapes {
         surveyed: &Surveyed,
         parts: Parts,
         objects: &mut Objects,
-    ) -> Vec<Stretch> {
+    ) -> Arc<[Stretch]> {
         let (content, marks) = (&surveyed.found.content, &surveyed.marks);
         if content.keys.is_empty() {
-            return vec![Stretch { first: 0, count: content.triangles, known: Known::Mesh, content: None }];
+            return [Stretch { first: 0, count: content.triangles, known: Known::Mesh, content: None }]
+                .into();
         }
         if let Some((plan, _)) = self.plans.get(&surveyed.found.bytes).filter(|_| surveyed.is_planned) {
             return plan.clone();
@@ -287,6 +298,7 @@ impl Shapes {
                     stretch.content = content_of(frame, draw, stretch.first, stretch.count);
                 }
             }
+            let stretches: Arc<[Stretch]> = stretches.into();
             self.plans.insert(surveyed.found.bytes, (stretches.clone(), self.frame));
             return stretches;
         }
@@ -304,7 +316,7 @@ impl Shapes {
             }
         }
         merge(&mut stretches, content.triangles);
-        stretches
+        stretches.into()
     }
 
     /// What fresh triangles belong to: what they were before if they moved; else they are a thing of their own, or belong to

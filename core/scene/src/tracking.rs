@@ -184,15 +184,15 @@ impl Tracker {
         (NOISE * *median).clamp(STILL, TOLERANCE)
     }
 
-    fn witnesses<'a>(&self, claims: &'a [Claim<'a>], base_is_view: bool) -> Vec<Witness<'a>> {
+    fn witnesses<'a>(&'a self, claims: &'a [Claim<'a>], base_is_view: bool) -> Vec<Witness<'a>> {
         let witness = |claim: &'a Claim<'a>| {
             let object = claim.object.and_then(|object| self.objects.get(object));
             // Where the world has been sent in world coordinates, new things are as well.
-            let known = object.and_then(|object| object.model);
-            let model = known.or(base_is_view.then_some(DMat4::IDENTITY))?;
+            let known = object.and_then(|object| object.model.as_ref());
+            let model = known.or(base_is_view.then_some(&DMat4::IDENTITY))?;
             Some(Witness {
                 samples: &claim.piece.content.samples,
-                eye: claim.eye,
+                eye: &claim.eye,
                 model,
                 mesh: claim.piece.content.positions,
                 is_trusted: object.is_some_and(Object::is_trusted),
@@ -223,10 +223,9 @@ impl Tracker {
         self.objects.all().any(Object::is_trusted)
     }
 
-    /// Forgets all objects, but not the view.
-    pub fn begin_anew(&mut self) {
-        self.objects.clear();
-        self.epoch += 1;
+    /// Forgets objects that were unseen longest. Returns the new number of each that is left.
+    pub fn forget_unseen(&mut self) -> Vec<Option<u32>> {
+        self.objects.forget_unseen(self.frame)
     }
 
     fn begin_world(&mut self) {

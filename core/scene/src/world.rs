@@ -4,6 +4,7 @@ use afterglow_gl::frame::{Draw, Frame, Rect};
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use hashbrown::HashMap;
 
+use crate::content::spread_of;
 use crate::draws::{DrawFacts, TransformFacts};
 use crate::geometry::sample_positions;
 use crate::matrix::{self, Perspective};
@@ -92,16 +93,18 @@ impl World {
         let skip_masked = 4 * triangles(false) >= triangles(true);
         let in_view = || solid().filter(|d| d.place.view == view && !(skip_masked && d.masked));
 
+        let reaches: Vec<Reach> = in_view().map(|facts| Reach::of(frame, facts, transforms)).collect();
         let mut stages: HashMap<Stage, Group> = HashMap::new();
-        for facts in in_view() {
-            stages.entry(Stage::of(facts, transforms)).or_default().add(frame, facts, transforms);
+        for (facts, reach) in in_view().zip(&reaches) {
+            stages.entry(Stage::of(facts, transforms)).or_default().add(facts, reach);
         }
         let (stage, whole) = heaviest(&stages, Group::weight)?;
 
         let mut matrices: HashMap<u64, Group> = HashMap::new();
-        for facts in in_view().filter(|d| Stage::of(d, transforms) == *stage) {
+        let on_stage = in_view().zip(&reaches).filter(|(d, _)| Stage::of(d, transforms) == *stage);
+        for (facts, reach) in on_stage {
             let hash = transforms[facts.transform].modelview_hash;
-            matrices.entry(hash).or_default().add(frame, facts, transforms);
+            matrices.entry(hash).or_default().add(facts, reach);
         }
         let (_, chosen) = heaviest(&matrices, |g| g.view_weight(whole, transforms))?;
         let facts = &transforms[chosen.transform];
@@ -179,6 +182,56 @@ fn heaviest<K>(groups: &HashMap<K, Group>, weight: impl Fn(&Group) -> f64) -> Op
     groups.iter().max_by(|(_, a), (_, b)| weight(a).total_cmp(&weight(b)).then(b.first.cmp(&a.first)))
 }
 
+/// How far draws reach in eye space, by samples of their positions.
+#[derive(Debug, Clone)]
+struct Reach {
+    least: DVec3,
+    most: DVec3,
+    sum: DVec3,
+    samples: f64,
+}
+
+impl Default for Reach {
+    fn default() -> Reach {
+        Reach { least: DVec3::INFINITY, most: DVec3::NEG_INFINITY, sum: DVec3::ZERO, samples: 0.0 }
+    }
+}
+
+impl Reach {
+    /// That of a draw.
+    fn of(frame: &Frame, facts: &DrawFacts, transforms: &[TransformFacts]) -> Reach {
+        let mut reach = Reach::default();
+        match facts.piece {
+            Some(piece) => {
+                let eye = transforms[facts.transform].eye;
+                let spread = piece.content.spread(frame, facts.draw);
+                spread.iter().for_each(|at| reach.add_point(eye.project_point3(at.as_dvec3())));
+            }
+            None => {
+                let samples = facts.eye_samples(frame, transforms, spread_of(facts.draw));
+                samples.for_each(|at| reach.add_point(at));
+            }
+        }
+        reach
+    }
+
+    fn add_point(&mut self, point: DVec3) {
+        if point.is_finite() {
+            self.least = self.least.min(point);
+            self.most = self.most.max(point);
+            self.sum += point;
+            self.samples += 1.0;
+        }
+    }
+
+    fn add(&mut self, other: &Reach) {
+        self.least = self.least.min(other.least);
+        self.most = self.most.max(other.most);
+        self.sum += other.sum;
+        self.samples += other.samples;
+    }
+}
+
 /// Draws taken together.
 #[derive(Debug, Clone)]
 struct Group {
@@ -187,30 +240,17 @@ struct Group {
     triangles: u64,
     first: u32,
     last: u32,
-    least: DVec3,
-    most: DVec3,
-    sum: DVec3,
-    samples: f64,
+    reach: Reach,
 }
 
 impl Default for Group {
     fn default() -> Group {
-        Group {
-            transform: 0,
-            draw: None,
-            triangles: 0,
-            first: u32::MAX,
-            last: 0,
-            least: DVec3::INFINITY,
-            most: DVec3::NEG_INFINITY,
-            sum: DVec3::ZERO,
-            samples: 0.0,
-        }
+        Group { transform: 0, draw: None, triangles: 0, first: u32::MAX, last: 0, reach: Reach::default() }
     }
 }
 
 impl Group {
-    fn add(&mut self, frame: &Frame, facts: &DrawFacts, transforms: &[TransformFacts]) {
+    fn add(&mut self, facts: &DrawFacts, reach: &Reach) {
         if self.triangles == 0 {
             self.transform = facts.transform;
             self.draw = Some(*facts.draw);
@@ -218,21 +258,15 @@ impl Group {
         self.triangles += u64::from(facts.triangles);
         self.first = self.first.min(facts.operation);
         self.last = self.last.max(facts.operation);
-        let count = 8 + facts.draw.index_count as usize / 64;
-        for sample in facts.eye_samples(frame, transforms, count) {
-            self.least = self.least.min(sample);
-            self.most = self.most.max(sample);
-            self.sum += sample;
-            self.samples += 1.0;
-        }
+        self.reach.add(reach);
     }
 
     fn extent(&self) -> f64 {
-        if self.samples > 0.0 { (self.most - self.least).length() } else { 0.0 }
+        if self.reach.samples > 0.0 { (self.reach.most - self.reach.least).length() } else { 0.0 }
     }
 
     fn mean(&self) -> DVec3 {
-        if self.samples > 0.0 { self.sum / self.samples } else { DVec3::ZERO }
+        if self.reach.samples > 0.0 { self.reach.sum / self.reach.samples } else { DVec3::ZERO }
     }
 
     /// Much of the screen's triangles and much of space.

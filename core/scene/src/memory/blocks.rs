@@ -3,11 +3,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use afterglow_gl::frame::{Frame, Operation};
+use afterglow_gl::frame::{Draw, Frame, Operation, VertexLayout};
 use glam::Vec3;
 
 use super::cells::{Cell, Pile};
-use super::entries::NO_CELL;
+use super::entries::{Entries, NO_CELL};
+use super::look::Look;
 use super::notice::Settled;
 use super::{Memory, Unseen};
 use crate::types::Scene;
@@ -47,6 +48,39 @@ impl Heap {
     }
 }
 
+/// State of a draw as its frame's tables have it, the kind it was compared with, and whether both look alike.
+/// Neighbours mostly share all of it.
+type Compared = ([u32; 4], VertexLayout, u32, bool);
+
+fn looks_as(frame: &Frame, draw: &Draw, kind: u32, look: &Look, last: &mut Option<Compared>) -> bool {
+    let state = [draw.fixed, draw.bindings, draw.material, draw.current];
+    match *last {
+        Some((known, layout, of, is_alike)) if known == state && layout == draw.layout && of == kind => {
+            is_alike
+        }
+        _ => {
+            let is_alike = look.is_of(frame, draw);
+            *last = Some((state, draw.layout, kind, is_alike));
+            is_alike
+        }
+    }
+}
+
+/// The cells that entries are in, each run of them once; nothing where one is in none.
+fn cells_of_entries(numbers: &[u32], entries: &Entries) -> Option<Box<[u32]>> {
+    let mut cells: Vec<u32> = Vec::new();
+    for &number in numbers.iter().filter(|number| **number != NO_CELL) {
+        let cell = entries.get(number).cell;
+        if cell == NO_CELL {
+            return None;
+        }
+        if cells.last() != Some(&cell) {
+            cells.push(cell);
+        }
+    }
+    Some(cells.into())
+}
+
 impl Memory {
     /// Blocks that are handed over: all of a place if anything of any of them was not drawn. What is known whole goes
     /// by itself.
@@ -74,29 +108,37 @@ impl Memory {
             .collect();
         let settled = std::mem::take(&mut self.settled);
         if !emitted.is_empty() {
-            let covered = settled.iter().filter(|draw| self.is_covered(frame, draw, &emitted));
+            let mut last = None;
+            let covered = settled.iter().filter(|draw| self.is_covered(frame, draw, &emitted, &mut last));
             scene.covered = covered.map(|draw| draw.operation).collect();
         }
     }
 
     /// Whether all triangles of a draw lie within what is handed over, and look there as it does.
-    fn is_covered(&self, frame: &Frame, draw: &Settled, emitted: &BTreeSet<u32>) -> bool {
-        let Some(memo) = self.memos.get(&draw.content) else { return false };
+    fn is_covered(
+        &mut self,
+        frame: &Frame,
+        draw: &Settled,
+        emitted: &BTreeSet<u32>,
+        last: &mut Option<Compared>,
+    ) -> bool {
         let Some(Operation::Draw(drawn)) = frame.operations.get(draw.operation as usize) else {
             return false;
         };
-        let mut last = None;
-        memo.entries.iter().filter(|entry| **entry != NO_CELL).all(|&entry| {
-            let number = self.entries.get(entry).cell;
+        let Some(memo) = self.memos.get_mut(&draw.content) else { return false };
+        let (changes, known) = memo.cells.take().unwrap_or_default();
+        let is_valid = changes == self.changes && changes != 0;
+        let cells = if is_valid { known } else { cells_of_entries(&memo.entries, &self.entries) };
+        let is_covered = cells.iter().flatten().all(|&number| {
             let Some(Some(cell)) = self.cells.get(number as usize) else { return false };
-            let is_same = last == Some(number);
-            last = Some(number);
-            is_same || {
-                let passes = &self.kinds.get(cell.kind).passes;
-                let looks_alike = passes.first().is_some_and(|(look, _)| look.is_of(frame, drawn));
-                passes.len() == 1 + draw.layers && looks_alike && emitted.contains(&cell.block)
-            }
-        })
+            let passes = &self.kinds.get(cell.kind).passes;
+            passes.len() == 1 + draw.layers
+                && emitted.contains(&cell.block)
+                && looks_as(frame, drawn, cell.kind, &passes[0].0, last)
+        });
+        let is_covered = is_covered && cells.is_some();
+        memo.cells = Some((self.changes, cells));
+        is_covered
     }
 
     /// The cells of a block.
@@ -158,6 +200,7 @@ impl Memory {
 
     /// Adds a cell to a block.
     pub(super) fn add_cell(&mut self, block: u32, mut cell: Cell) {
+        self.changes += 1;
         let number = self.free_cells.pop().unwrap_or_else(|| {
             self.cells.push(None);
             self.cells.len() as u32 - 1
@@ -183,6 +226,7 @@ impl Memory {
     pub(super) fn take_cell(&mut self, number: usize) -> Option<Cell> {
         let cell = self.cells.get_mut(number)?.take()?;
         self.free_cells.push(number as u32);
+        self.changes += 1;
         self.bytes -= cell.bytes;
         if let Some(block) = self.blocks.get_mut(&cell.block) {
             block.cells.retain(|&cell| cell as usize != number);

@@ -104,6 +104,8 @@ pub(crate) struct Memory {
     heaps: BTreeMap<u32, Heap>,
     cells: Vec<Option<Cell>>,
     free_cells: Vec<u32>,
+    /// Counts changes of which entries are in which cells.
+    changes: u64,
     blocks: BTreeMap<u32, Block>,
     next_block: u32,
     /// The next block when small ones were last looked for.
@@ -139,6 +141,7 @@ impl Memory {
             heaps: BTreeMap::new(),
             cells: Vec::new(),
             free_cells: Vec::new(),
+            changes: 0,
             blocks: BTreeMap::new(),
             next_block: 0,
             joined_blocks: 0,

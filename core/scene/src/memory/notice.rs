@@ -36,6 +36,8 @@ pub struct Noticed<'a> {
 pub struct Memo {
     /// One a triangle that has an area.
     pub entries: Box<[u32]>,
+    /// The cells that they are in, once that was needed: when that was, and nothing where one is in none.
+    pub cells: Option<(u64, Option<Box<[u32]>>)>,
     /// All of them are remembered.
     is_settled: bool,
     /// The frame in which it was last drawn.
@@ -162,7 +164,7 @@ impl Memory {
                 .chunks_exact(3)
                 .map(|triangle| positions.corners(triangle).map(|corners| triangle_key(corners, place)));
             let entries = keys.map(|key| key.map_or(NO_CELL, |key| self.entries.number(key)));
-            Memo { entries: entries.collect(), is_settled: false, drawn: 0 }
+            Memo { entries: entries.collect(), cells: None, is_settled: false, drawn: 0 }
         });
         memo.drawn = self.now;
         match memo.is_settled {

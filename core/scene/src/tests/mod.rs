@@ -8,3 +8,4 @@ mod lights;
 mod motion;
 mod profile;
 mod robustness;
+mod scale;

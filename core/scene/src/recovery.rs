@@ -136,10 +136,12 @@ impl Recovery {
             self.tracker.begin_anew();
             self.shapes.clear();
         }
-        let pieces = self.shapes.cut(frame, &self.images, &mut self.tracker.objects, draws::may_be_solid);
+        let transforms = draws::transforms(frame);
+        let foresight = self.tracker.foresight(&transforms);
+        let objects = &mut self.tracker.objects;
+        let pieces = self.shapes.cut(frame, &self.images, objects, foresight, draws::may_be_solid);
         let frame = &*frame;
         let views = Views::split(frame);
-        let transforms = draws::transforms(frame);
         let draws = draws::draws(frame, &views, &self.images, &mut self.cache);
         let Some(mut world) = World::find(frame, &views, &draws, &transforms, self.viewport) else {
             let mut scene = flat_scene(&draws);

@@ -58,12 +58,19 @@ impl Foresight<'_> {
             };
             asked.iter().filter(agrees).count()
         };
-        let proposals = asked.iter().filter_map(|mark| {
-            let found = matrix::similarity(mark.eye * mark.model.inverse())?;
-            Some((supporters(found.rigid), found.rigid)).filter(|_| found.scale == 1.0)
-        });
-        // Of equals the largest thing's.
-        let best = proposals.rev().max_by_key(|(supporters, _)| *supporters);
+        let mut best: Option<(usize, DMat4)> = None;
+        for mark in &asked {
+            let found = matrix::similarity(mark.eye * mark.model.inverse());
+            let Some(found) = found.filter(|found| found.scale == 1.0) else { continue };
+            let count = supporters(found.rigid);
+            // Of equals the largest thing's.
+            if best.is_none_or(|(most, _)| count > most) {
+                best = Some((count, found.rigid));
+            }
+            if count == asked.len() {
+                break;
+            }
+        }
         if let Some((_, view)) = best.filter(|(supporters, _)| *supporters >= 2.min(asked.len())) {
             (self.view, self.is_sharp) = (Some(view), true);
         }

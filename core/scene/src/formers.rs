@@ -106,12 +106,13 @@ impl Formers {
         for (index, query) in fresh.iter().enumerate() {
             let (content, kind) = (query.content, kind_of(query.content, query.texture));
             let Some(formers) = self.before.get(&kind) else { continue };
+            let now = foresight.place(query.transform);
             let may_be = |former: &Former| {
                 let is_same = content.keys.first() == Some(&former.first_key);
                 let is_gone = is_same || !is_drawn(former.first_key);
                 let reach = self.reach(former, content, formers.len());
                 (is_gone && former.went(content) <= reach)
-                    .then(|| self.becomes(former, query, foresight, objects))
+                    .then(|| self.becomes(former, query, now, foresight, objects))
                     .flatten()
             };
             let candidates =
@@ -155,11 +156,12 @@ impl Formers {
         self.frame.wrapping_sub(former.frame)
     }
 
-    /// What has happened to a stretch if it may have become fresh triangles.
+    /// What has happened to a stretch if it may have become fresh triangles, which are at a place in the world now.
     fn becomes(
         &self,
         former: &Former,
         query: &Query,
+        now: DMat4,
         foresight: &Foresight,
         objects: &Objects,
     ) -> Option<Change> {
@@ -170,7 +172,7 @@ impl Formers {
         }
         let away = self.away(former);
         let past = self.past.get(away.wrapping_sub(1) as usize).copied().unwrap_or(DMat4::IDENTITY);
-        let (before, now) = (past * former.eye, foresight.place(query.transform));
+        let before = past * former.eye;
         let extent = f64::from(former.extent) * before.x_axis.truncate().length();
         if content.samples.iter().all(|&sample| apart([before, now], [sample; 2]) <= AT * extent) {
             let place = before.transform_point3(former.centre.as_dvec3());

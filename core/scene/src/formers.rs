@@ -1,13 +1,21 @@
 //! Stretches of triangles that were new in the frame before: what they became tells what a program animates.
 //!
 //! Triangles that nobody has seen before are either new to the view or old ones with other positions. They are the
-//! latter if a stretch of the same topology and texture was near in the frame before, and is not drawn any more.
+//! latter if a stretch of the same topology and texture was near in the frame before, both in its own space and in the
+//! world, is not drawn any more, and may have become this: it has bent, or it has gone as a whole under the matrix that it
+//! had, from where it would be seen if it still were there.
 
-use afterglow_gl::frame::{Draw, Frame};
-use glam::Vec3;
+use std::collections::VecDeque;
+
+use glam::{DMat4, Vec3};
 use hashbrown::{HashMap, HashSet};
 
-use crate::content::{Content, SAMPLES, corners};
+use crate::content::Content;
+use crate::deform::Change;
+use crate::foresight::Foresight;
+use crate::former::{AS_KNOWN, Former, STREAK};
+use crate::matrix;
+use crate::objects::Objects;
 
 /// Stretches that are noted in a frame, at most.
 const MOST: usize = 1 << 14;
@@ -17,63 +25,14 @@ const MOST_KINDS: usize = 1 << 14;
 const MOST_COMPARED: usize = 64;
 /// Triangles up to which a stretch is a sprite: too simple to be known by its topology from afar.
 pub const SPRITE: u32 = 4;
-/// How far what was known goes when it begins to change, in its own extents.
-const AS_KNOWN: f32 = 0.25;
-/// Triangles from which on a stretch has a shape by which it is known.
-const SHAPE: u32 = 8;
+/// How far a stretch goes in the world while its matrix moves, as anything may and as what changes its shape, in its own
+/// extents.
+const NEAR: f64 = 2.0;
+const FAR: f64 = 8.0;
+/// How far a stretch seems to go in the world, in its own extents, whose matrix stands still.
+const AT: f64 = 0.05;
 /// Frames for which what was animated is waited for.
 const AWAITED: u32 = 30;
-/// Frames after which what was animated and rests is a thing like any other.
-const RESTED: u32 = 90;
-/// Times that a stretch must have moved before it counts as animated.
-const STREAK: u32 = 2;
-
-/// A stretch as it was drawn last.
-#[derive(Debug, Clone)]
-pub struct Former {
-    centre: Vec3,
-    extent: f32,
-    samples: [Vec3; SAMPLES],
-    /// A triangle of it: as long as that is drawn, the stretch has not moved.
-    first_key: u64,
-    frame: u32,
-    streak: u32,
-    is_taken: bool,
-    /// Frames for which it has been where it is, and its positions.
-    rests: (u32, u64),
-    /// What it belongs to.
-    pub object: Option<u32>,
-    /// Where its corners were.
-    pub corners: Vec<Vec3>,
-}
-
-impl Former {
-    /// As it is drawn in this frame, nothing known of what it was before.
-    fn of(content: &Content, frame: u32) -> Former {
-        Former {
-            centre: content.centre,
-            extent: content.extent,
-            samples: content.samples,
-            first_key: content.keys.first().copied().unwrap_or(0),
-            frame,
-            streak: 0,
-            is_taken: false,
-            rests: (0, content.positions),
-            object: None,
-            corners: Vec::new(),
-        }
-    }
-
-    /// Whether it has been where it is for long.
-    pub fn has_settled(&self, content: &Content) -> bool {
-        self.rests.0 > RESTED && self.rests_at(content)
-    }
-
-    /// Whether it is where it was.
-    pub fn rests_at(&self, content: &Content) -> bool {
-        self.rests.1 == content.positions
-    }
-}
 
 /// Topology, texture, number of triangles.
 type Kind = (u64, u64, u32);
@@ -82,11 +41,18 @@ fn kind_of(content: &Content, texture: u64) -> Kind {
     (content.topology, texture, content.triangles)
 }
 
-/// Whether a shape has changed by more than its place.
-fn has_deformed(before: &[Vec3; SAMPLES], now: &[Vec3; SAMPLES]) -> bool {
-    let edges = |samples: &[Vec3; SAMPLES]| std::array::from_fn::<_, 7, _>(|i| samples[i + 1] - samples[0]);
-    let size = now.iter().map(|sample| sample.distance(now[0])).fold(0.0, f32::max);
-    edges(before).iter().zip(edges(now)).any(|(a, b)| a.distance(b) > 1e-3 * size)
+/// Fresh triangles of which is asked what they were.
+pub struct Query<'a> {
+    /// What they are.
+    pub content: &'a Content,
+    /// What is on them.
+    pub texture: u64,
+    /// Their corners, object space.
+    pub corners: &'a [Vec3],
+    /// Index of their matrices among the frame's.
+    pub transform: usize,
+    /// Where the answer goes.
+    pub former: &'a mut Option<Former>,
 }
 
 /// The stretches of the frame before, and those of this one.
@@ -96,15 +62,19 @@ pub struct Formers {
     now: HashMap<Kind, Vec<Former>>,
     /// What was animated.
     kinds: HashSet<Kind>,
+    /// Eye to world space in the last frames, the latest first.
+    past: VecDeque<DMat4>,
     noted: usize,
     frame: u32,
 }
 
 impl Formers {
-    /// A frame begins: what was noted becomes what was before.
-    pub fn next_frame(&mut self, frame: u32) {
+    /// A frame begins: what was noted becomes what was before, seen under that view.
+    pub fn next_frame(&mut self, frame: u32, view: Option<DMat4>) {
         std::mem::swap(&mut self.before, &mut self.now);
         (self.noted, self.frame) = (0, frame);
+        self.past.truncate(AWAITED as usize - 1);
+        self.past.push_front(view.map_or(DMat4::IDENTITY, matrix::rigid_inverse));
         for (kind, waiting) in &mut self.now {
             let is_awaited =
                 |former: &Former| former.streak > 0 && frame.wrapping_sub(former.frame) < AWAITED;
@@ -130,33 +100,46 @@ impl Formers {
     }
 
     /// Finds what fresh triangles were before, the nearest first. `is_drawn` tells whether a triangle is in this frame.
-    pub fn take(&mut self, fresh: Vec<(&Content, u64, &mut Option<Former>)>, is_drawn: impl Fn(u64) -> bool) {
-        let mut pairs: Vec<(f32, usize, Kind, usize)> = Vec::new();
-        for (index, (content, texture, _)) in fresh.iter().enumerate() {
-            let kind = kind_of(content, *texture);
+    pub fn take(
+        &mut self,
+        mut fresh: Vec<Query>,
+        foresight: &Foresight,
+        objects: &Objects,
+        is_drawn: impl Fn(u64) -> bool,
+    ) {
+        let mut pairs: Vec<(f32, usize, Kind, usize, Change)> = Vec::new();
+        for (index, query) in fresh.iter().enumerate() {
+            let (content, kind) = (query.content, kind_of(query.content, query.texture));
             let Some(formers) = self.before.get(&kind) else { continue };
+            let now = foresight.place(query.transform);
             let may_be = |former: &Former| {
                 let is_same = content.keys.first() == Some(&former.first_key);
-                self.may_go(former, content, formers.len()) && (is_same || !is_drawn(former.first_key))
+                let is_gone = is_same || !is_drawn(former.first_key);
+                let reach = self.reach(former, content, formers.len());
+                (is_gone && former.went(content) <= reach)
+                    .then(|| self.becomes(former, query, now, foresight, objects))
+                    .flatten()
             };
             let candidates =
-                formers.iter().enumerate().filter(|(_, former)| may_be(former)).take(MOST_COMPARED);
+                formers.iter().enumerate().filter_map(|(at, former)| Some((at, former, may_be(former)?)));
             pairs.extend(
-                candidates.map(|(at, former)| (former.centre.distance(content.centre), index, kind, at)),
+                candidates
+                    .take(MOST_COMPARED)
+                    .map(|(at, former, change)| (former.went(content), index, kind, at, change)),
             );
         }
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.3.cmp(&b.3)));
-        let (mut fresh, mut taken) = (fresh, HashSet::new());
-        for (_, index, kind, at) in pairs {
+        let mut taken = HashSet::new();
+        for (_, index, kind, at, change) in pairs {
             let Some(former) = self.before.get_mut(&kind).and_then(|formers| formers.get_mut(at)) else {
                 continue;
             };
-            let (_, _, slot) = &mut fresh[index];
+            let slot = &mut *fresh[index].former;
             if slot.is_none() && !former.is_taken {
                 former.is_taken = true;
                 taken.insert(kind);
                 let corners = std::mem::take(&mut former.corners);
-                **slot = Some(Former { corners, ..former.clone() });
+                *slot = Some(Former { corners, change, ..former.clone() });
             }
         }
         for kind in taken {
@@ -164,64 +147,116 @@ impl Formers {
         }
     }
 
-    /// Whether a stretch may have gone so far: the longer it was away, the farther.
-    fn may_go(&self, former: &Former, content: &Content, alike: usize) -> bool {
-        let away = self.frame.wrapping_sub(former.frame) as f32;
-        let reach = match content.triangles {
-            // What was known may as well be out of sight now, and this something like it.
-            _ if former.corners.is_empty() => AS_KNOWN * former.extent,
-            0..=SPRITE => 0.75 * former.extent.max(content.extent),
-            _ if alike == 1 => 8.0 * former.extent,
-            _ => 2.0 * former.extent,
-        };
-        former.centre.distance(content.centre) <= away * reach
+    /// How far a stretch may have gone in its own space: the longer it was away, the farther.
+    fn reach(&self, former: &Former, content: &Content, alike: usize) -> f32 {
+        self.away(former) as f32
+            * match content.triangles {
+                _ if former.is_known => AS_KNOWN * former.extent,
+                0..=SPRITE => 0.75 * former.extent.max(content.extent),
+                _ if alike == 1 => 8.0 * former.extent,
+                _ => 2.0 * former.extent,
+            }
     }
 
-    /// Notes new triangles of a draw, and what they were before. Returns whether they count as animated.
+    /// Frames since it was drawn.
+    fn away(&self, former: &Former) -> u32 {
+        self.frame.wrapping_sub(former.frame)
+    }
+
+    /// What has happened to a stretch if it may have become fresh triangles, which are at a place in the world now.
+    fn becomes(
+        &self,
+        former: &Former,
+        query: &Query,
+        now: DMat4,
+        foresight: &Foresight,
+        objects: &Objects,
+    ) -> Option<Change> {
+        let content = query.content;
+        let change = former.change(content, query.corners);
+        if change == Change::Scatters {
+            return None;
+        }
+        let away = self.away(former);
+        let past = self.past.get(away.wrapping_sub(1) as usize).copied().unwrap_or(DMat4::IDENTITY);
+        let before = past * former.eye;
+        let extent = f64::from(former.extent) * before.x_axis.truncate().length();
+        if content.samples.iter().all(|&sample| apart([before, now], [sample; 2]) <= AT * extent) {
+            let place = before.transform_point3(former.centre.as_dvec3());
+            let may_go = former.is_near(content) || foresight.shows(place, query.transform);
+            return may_go.then_some(change);
+        }
+        let centres = [former.centre, content.centre];
+        let eye = foresight.eye(query.transform);
+        let went = apart([before, now], centres).min(apart([former.eye, eye], centres));
+        let was_animated = former.streak >= STREAK;
+        let reach = match change {
+            Change::Bends => FAR,
+            _ if was_animated => FAR,
+            // What goes as a whole does so by its matrix.
+            Change::Goes(_) => return None,
+            _ => NEAR,
+        };
+        let is_near = went <= f64::from(away) * reach * extent || !foresight.is_sharp;
+        let may_leave = was_animated || former.may_leave(objects, foresight.frame);
+        (is_near && may_leave).then_some(change)
+    }
+
+    /// Notes new triangles of a draw under a matrix to eye space, and what they were before. Returns whether they count as
+    /// animated.
     pub fn note(
         &mut self,
-        (frame, draw): (&Frame, &Draw),
         content: &Content,
         texture: u64,
+        (corners, eye): (Vec<Vec3>, DMat4),
         before: Option<&Former>,
         now: u32,
     ) -> bool {
-        let corners = corners(frame, draw);
-        let deforms = before.is_some_and(|former| {
-            let is_near = former.centre.distance(content.centre) <= AS_KNOWN * former.extent;
-            content.triangles >= SHAPE && is_near && has_deformed(&former.samples, &content.samples)
-        });
-        // What changed its shape has not come into view as something else.
-        let streak = before.map_or(0, |former| former.streak + if deforms { STREAK } else { 1 });
+        let away = before.map_or(1, |former| self.away(former));
+        let streak = before.map_or(0, |former| former.streak(content, away));
+        let kind = kind_of(content, texture);
         if self.noted < MOST {
             self.noted += 1;
-            let kind = kind_of(content, texture);
             let rests =
                 before.filter(|former| former.rests_at(content)).map_or(0, |former| former.rests.0 + 1);
+            let pace = match before.map(|former| former.change) {
+                Some(Change::Goes(way)) => Some(way / away.max(1) as f32),
+                _ => None,
+            };
             self.now.entry(kind).or_default().push(Former {
                 streak,
                 rests: (rests, content.positions),
+                pace,
                 object: before.and_then(|former| former.object),
                 corners,
-                ..Former::of(content, now)
+                ..Former::of(content, eye, now)
             });
         }
         let counts = streak >= STREAK;
-        if counts && self.kinds.len() < MOST_KINDS {
-            self.kinds.insert(kind_of(content, texture));
+        let has_settled = before.is_some_and(|former| former.streak > 0 && former.has_settled(content));
+        if has_settled {
+            self.kinds.remove(&kind);
+        } else if counts && self.kinds.len() < MOST_KINDS {
+            self.kinds.insert(kind);
         }
         counts
     }
 
-    /// Notes a draw that is known: it may change in a later frame.
-    pub fn note_known(&mut self, content: &Content, texture: u64, object: u32, now: u32) {
-        let is_shape = content.triangles >= SHAPE;
-        let kind = kind_of(content, texture);
-        if !is_shape || self.noted >= MOST {
-            return;
+    /// Notes a draw that is known: it may change in a later frame. Its corners are needed while nobody knows whether it moves.
+    pub fn note_known(
+        &mut self,
+        content: &Content,
+        texture: u64,
+        (corners, eye): (Vec<Vec3>, DMat4),
+        object: u32,
+        now: u32,
+    ) {
+        if self.noted < MOST {
+            self.noted += 1;
+            let (object, is_known) = (Some(object), true);
+            let former = Former { object, corners, is_known, ..Former::of(content, eye, now) };
+            self.now.entry(kind_of(content, texture)).or_default().push(former);
         }
-        self.noted += 1;
-        self.now.entry(kind).or_default().push(Former { object: Some(object), ..Former::of(content, now) });
     }
 
     /// Says what the stretch that was noted last belongs to.
@@ -238,4 +273,9 @@ impl Formers {
             former.object = former.object.and_then(|object| *numbers.get(object as usize)?);
         }
     }
+}
+
+/// How far a point is under one matrix from another point under another.
+fn apart([a, b]: [DMat4; 2], [p, q]: [Vec3; 2]) -> f64 {
+    a.transform_point3(p.as_dvec3()).distance(b.transform_point3(q.as_dvec3()))
 }

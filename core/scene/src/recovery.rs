@@ -149,11 +149,13 @@ impl Recovery {
             let numbers = self.tracker.forget_unseen();
             self.shapes.renumber(&numbers);
         }
-        let pieces = self.shapes.cut(frame, &self.images, &mut self.tracker.objects, draws::may_be_solid);
+        let transforms = draws::transforms(frame);
+        let foresight = self.tracker.foresight(&transforms);
+        let objects = &mut self.tracker.objects;
+        let pieces = self.shapes.cut(frame, &self.images, objects, foresight, draws::may_be_solid);
         ended(Phase::Shapes);
         let frame = &*frame;
         let views = Views::split(frame);
-        let transforms = draws::transforms(frame);
         let draws = draws::draws(frame, &views, &pieces, &self.images, &mut self.cache);
         ended(Phase::Facts);
         let world = World::find(frame, &views, &draws, &transforms, self.viewport);

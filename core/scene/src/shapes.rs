@@ -7,12 +7,15 @@
 use std::sync::Arc;
 
 use afterglow_gl::frame::{Draw, Frame, Operation, Topology};
+use glam::Vec3;
 use hashbrown::{HashMap, HashSet};
 
-use crate::content::{Content, Contents, Found, part_hash};
-use crate::formers::{Former, Formers, SPRITE};
+use crate::content::{Content, Contents, Found, corners, part_hash};
+use crate::foresight::{Foresight, Landmark};
+use crate::former::{Former, SHAPE};
+use crate::formers::{Formers, Query, SPRITE};
 use crate::images::Images;
-use crate::objects::Objects;
+use crate::objects::{Motion, Objects};
 pub use crate::stretches::Known;
 use crate::stretches::{MOST_PIECES, Stretch, apply, merge, part_of, push, push_known, segments};
 
@@ -68,6 +71,8 @@ struct Surveyed {
     operation: usize,
     found: Found,
     texture: u64,
+    /// Index of its matrices.
+    transform: usize,
     /// There is a plan for it.
     is_planned: bool,
     /// The object of each triangle; none of those that are animated. Empty where a plan is known.
@@ -81,6 +86,8 @@ struct Fresh {
     first: u32,
     count: u32,
     content: Option<Arc<Content>>,
+    /// Their corners, object space.
+    corners: Vec<Vec3>,
     /// What they were in the frame before.
     former: Option<Former>,
 }
@@ -89,17 +96,19 @@ struct Fresh {
 type Parts = Vec<(u32, u32, Option<Fresh>)>;
 
 impl Shapes {
-    /// Cuts the draws of a frame that `is_wanted`. Returns a piece for each draw that the frame has then, in order.
+    /// Cuts the draws of a frame that `is_wanted`, of which is known what can be foreseen. Returns a piece for each draw that
+    /// the frame has then, in order.
     pub fn cut(
         &mut self,
         frame: &mut Frame,
         images: &Images,
         objects: &mut Objects,
+        mut foresight: Foresight,
         is_wanted: impl Fn(&Frame, &Draw) -> bool,
     ) -> Vec<Option<Piece>> {
-        self.next_frame();
+        self.next_frame(&foresight);
         let surveyed = self.survey(frame, images, objects, is_wanted);
-        let parts = self.parts(frame, &surveyed, objects);
+        let parts = self.parts(frame, &surveyed, objects, &mut foresight);
         let mut pieces: Vec<Option<Piece>> = Vec::with_capacity(surveyed.len());
         let mut cuts: Vec<(usize, Vec<(u32, u32)>)> = Vec::new();
         let mut draws = 0;
@@ -108,10 +117,10 @@ impl Shapes {
             draws = surveyed.number + 1;
             let Some(Operation::Draw(draw)) = frame.operations.get(surveyed.operation) else { continue };
             let is_known = parts.is_empty();
-            let stretches = self.stretches(frame, draw, &surveyed, parts, objects);
+            let stretches = self.stretches(frame, draw, &surveyed, parts, objects, &foresight);
             if let [whole] = &*stretches {
                 if let (Known::Object(object), true) = (&whole.known, is_known) {
-                    self.formers.note_known(&surveyed.found.content, surveyed.texture, *object, self.frame);
+                    self.note_known(frame, draw, &surveyed, *object, objects, &foresight);
                 }
                 pieces.push(Some(Piece {
                     content: surveyed.found.content,
@@ -137,6 +146,26 @@ impl Shapes {
         pieces
     }
 
+    /// Notes a draw that is one known thing.
+    fn note_known(
+        &mut self,
+        frame: &Frame,
+        draw: &Draw,
+        surveyed: &Surveyed,
+        object: u32,
+        objects: &Objects,
+        foresight: &Foresight,
+    ) {
+        let content = &surveyed.found.content;
+        if content.triangles < SHAPE {
+            return;
+        }
+        let motion = objects.get(object).map(|object| object.motion(foresight.frame));
+        let corners = if motion == Some(Motion::Unknown) { corners(frame, draw) } else { Vec::new() };
+        let eye = foresight.eye(surveyed.transform);
+        self.formers.note_known(content, surveyed.texture, (corners, eye), object, self.frame);
+    }
+
     /// Objects have other numbers, or are forgotten: so are their triangles then.
     pub fn renumber(&mut self, numbers: &[Option<u32>]) {
         let renumber = |object: &mut u32| {
@@ -150,11 +179,11 @@ impl Shapes {
         self.plans.clear();
     }
 
-    fn next_frame(&mut self) {
+    fn next_frame(&mut self, foresight: &Foresight) {
         self.frame = self.frame.wrapping_add(1);
         self.contents.next_frame();
         self.animated.clear();
-        self.formers.next_frame(self.frame);
+        self.formers.next_frame(self.frame, foresight.before);
         let now = self.frame;
         if now.is_multiple_of(PLANNED) {
             self.plans.retain(|_, (_, used)| now.wrapping_sub(*used) < PLANNED);
@@ -197,7 +226,17 @@ impl Shapes {
             let is_known =
                 |object: &u32| !is_expected && objects.get(*object).is_some_and(|object| !object.is_animated);
             let marks = seen.into_iter().map(|mark| mark.filter(is_known)).collect();
-            surveyed.push(Surveyed { number, operation, found, texture, is_planned, marks, known });
+            let transform = draw.transform as usize;
+            surveyed.push(Surveyed {
+                number,
+                operation,
+                found,
+                texture,
+                transform,
+                is_planned,
+                marks,
+                known,
+            });
         }
         surveyed
     }
@@ -226,7 +265,13 @@ impl Shapes {
     }
 
     /// Cuts all draws that have fresh triangles, and finds what these were before.
-    fn parts(&mut self, frame: &Frame, surveyed: &[Surveyed], objects: &Objects) -> Vec<Parts> {
+    fn parts(
+        &mut self,
+        frame: &Frame,
+        surveyed: &[Surveyed],
+        objects: &Objects,
+        foresight: &mut Foresight,
+    ) -> Vec<Parts> {
         let is_planned = |s: &Surveyed| s.is_planned || s.marks.iter().all(Option::is_some);
         let mut parts: Vec<Parts> = Vec::with_capacity(surveyed.len());
         for surveyed in surveyed {
@@ -248,6 +293,7 @@ impl Shapes {
                     first,
                     count,
                     content: content(first, count),
+                    corners: corners(frame, &part_of(draw, first, count)),
                     former: None,
                 })
             };
@@ -261,16 +307,50 @@ impl Shapes {
             });
             parts.push(segments.iter().map(|segment| (segment.0, segment.1, fresh(segment))).collect());
         }
-        let fresh = parts.iter_mut().zip(surveyed).flat_map(|(parts, surveyed)| {
-            let fresh = parts.iter_mut().filter_map(|(_, _, fresh)| fresh.as_mut());
-            fresh.filter_map(|fresh| Some((fresh.content.as_deref()?, surveyed.texture, &mut fresh.former)))
-        });
+        let mut queries: Vec<Query> = Vec::new();
+        for (parts, surveyed) in parts.iter_mut().zip(surveyed) {
+            for fresh in parts.iter_mut().filter_map(|(_, _, fresh)| fresh.as_mut()) {
+                let Some(content) = fresh.content.as_deref() else { continue };
+                let (texture, transform) = (surveyed.texture, surveyed.transform);
+                if self.formers.have(content, texture) {
+                    let (corners, former) = (fresh.corners.as_slice(), &mut fresh.former);
+                    queries.push(Query { content, texture, corners, transform, former });
+                }
+            }
+        }
+        if queries.is_empty() {
+            return parts;
+        }
+        foresight.sharpen(self.landmarks(surveyed, objects, foresight));
         let (triangles, now) = (&self.triangles, self.frame);
-        self.formers.take(fresh.collect(), |key| {
+        self.formers.take(queries, foresight, objects, |key| {
             let drawn = triangles.get(&key).filter(|seen| seen.last == now);
             drawn.is_some_and(|seen| objects.get(seen.object).is_none_or(|object| !object.is_animated))
         });
         parts
+    }
+
+    /// What is known and may stand still.
+    fn landmarks<'a>(
+        &self,
+        surveyed: &'a [Surveyed],
+        objects: &Objects,
+        foresight: &Foresight,
+    ) -> Vec<Landmark<'a>> {
+        let landmark = |surveyed: &'a Surveyed| {
+            let content = &surveyed.found.content;
+            let planned = || match self.plans.get(&surveyed.found.bytes)?.0.first()?.known {
+                Known::Object(object) => Some(object),
+                _ => None,
+            };
+            let object = surveyed.marks.first().copied().flatten().or_else(planned)?;
+            let object = objects.get(object).filter(|object| !object.is_animated)?;
+            let (model, eye) = (object.model?, foresight.eye(surveyed.transform));
+            let extent = f64::from(content.extent) * model.x_axis.truncate().length();
+            let is_trusted = object.is_trusted();
+            Some(Landmark { samples: &content.samples, extent, eye, model, is_trusted })
+        };
+        surveyed.iter().filter_map(landmark).collect()
     }
 
     fn stretches(
@@ -280,6 +360,7 @@ impl Shapes {
         surveyed: &Surveyed,
         parts: Parts,
         objects: &mut Objects,
+        foresight: &Foresight,
     ) -> Arc<[Stretch]> {
         let (content, marks) = (&surveyed.found.content, &surveyed.marks);
         if content.keys.is_empty() {
@@ -309,7 +390,7 @@ impl Shapes {
             match fresh {
                 Some(fresh) => {
                     let own = are_things && count > SPRITE;
-                    let known = self.fresh(frame, draw, surveyed, fresh, objects, &mut home, own);
+                    let known = self.fresh(surveyed, fresh, foresight, objects, &mut home, own);
                     push(&mut stretches, first, count, known);
                 }
                 None => push_known(&mut stretches, first, &marks[first as usize..(first + count) as usize]),
@@ -321,29 +402,33 @@ impl Shapes {
 
     /// What fresh triangles belong to: what they were before if they moved; else they are a thing of their own, or belong to
     /// the object of those around them.
-    #[expect(clippy::too_many_arguments, reason = "one step of `stretches`, apart to be read")]
     fn fresh(
         &mut self,
-        frame: &Frame,
-        draw: &Draw,
         surveyed: &Surveyed,
         fresh: Fresh,
+        foresight: &Foresight,
         objects: &mut Objects,
         home: &mut Option<u32>,
         is_own: bool,
     ) -> Known {
-        let Fresh { first, count, content, former } = fresh;
-        let (texture, now) = (surveyed.texture, self.frame);
+        let Fresh { first, count, content, corners, former } = fresh;
+        let (texture, transform, now) = (surveyed.texture, surveyed.transform, self.frame);
         let before = former.as_ref().and_then(|former| former.object);
-        let before = before.or(surveyed.known.filter(|_| count == surveyed.found.content.triangles));
         let whole = &surveyed.found.content;
+        let is_home = |object: &u32| {
+            count == whole.triangles
+                && objects.get(*object).is_none_or(|object| foresight.may_hold(object, whole, transform))
+        };
+        let before = before.or(surveyed.known.filter(is_home));
         if let Some(part) = &content {
-            let cut = part_of(draw, first, count);
-            let counts = self.formers.note((frame, &cut), part, texture, former.as_ref(), now);
+            let eye = foresight.eye(transform);
+            let counts = self.formers.note(part, texture, (corners, eye), former.as_ref(), now);
             let has_settled = former.as_ref().is_some_and(|former| former.has_settled(part));
             let is_sprite = count <= SPRITE && self.sprites.contains_key(&texture);
             let may_move = former.as_ref().is_none_or(|former| !former.rests_at(part));
-            let is_animated = (counts || self.formers.expect(part, texture)) && !has_settled;
+            // What is of an animated kind and rests as it came is not animated itself.
+            let is_expected = may_move && self.formers.expect(part, texture);
+            let is_animated = (counts || is_expected) && !has_settled;
             if is_animated || (is_sprite && may_move) {
                 // Several may be in a pose that one of them was in.
                 let before = before.filter(|object| !self.animated.contains(object));

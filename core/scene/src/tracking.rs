@@ -7,6 +7,7 @@ use glam::{DMat3, DMat4, Vec3};
 
 use crate::consensus::{self, Prior, TOLERANCE, Witness};
 use crate::draws::{DrawFacts, TransformFacts};
+use crate::foresight::Foresight;
 use crate::matrix;
 use crate::objects::{Motion, Object, Objects, Step};
 use crate::pairing::{NEAR, Pairing, Sight};
@@ -112,6 +113,12 @@ impl Tracker {
             tracks[claim.draw] = self.step(claim, &step);
         }
         tracks
+    }
+
+    /// What can be foreseen of a frame that has these matrices.
+    pub fn foresight<'a>(&self, transforms: &'a [TransformFacts]) -> Foresight<'a> {
+        let view = self.view.map(|view| self.velocity * view);
+        Foresight { transforms, before: self.view, view, is_sharp: false, frame: self.frame }
     }
 
     /// Whether a piece is known to stand still in the world, wherever it is drawn.

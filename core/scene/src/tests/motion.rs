@@ -174,6 +174,69 @@ fn what_changes_its_vertices_is_dynamic_and_keeps_its_name() {
     assert!(names.iter().all(|name| *name == names[0]), "{names:x?}");
 }
 
+/// Things about these places, of twelve triangles in all.
+fn alike(places: [[f32; 2]; 4]) -> Vec<Vec3> {
+    places
+        .into_iter()
+        .flat_map(|[x, z]| thing(1.0).into_iter().map(move |c| c + Vec3::new(x, 0.0, z)))
+        .collect()
+}
+
+#[test]
+fn what_grows_elsewhere_is_another_thing() {
+    let mut recovery = Recovery::new();
+    let mut verdicts = Vec::new();
+    for frame in 0..40 {
+        let scene = understand(frame, &mut recovery, |sketch, view| {
+            sketch.modelview = view;
+            sketch.world();
+            // Blocks of a land, of which one is seen after the other.
+            let block = frame / 8;
+            let away = [12.0, -12.0, 30.0, -30.0, 3.0][block as usize];
+            sketch.modelview = view * Mat4::from_translation(Vec3::new(away, 0.0, 2.0 * away));
+            let at = |i: u32| [((7 * block + 3 * i) % 10) as f32, ((5 * block + 7 * i) % 9) as f32];
+            sketch.draw(&alike([0, 1, 2, 3].map(at)));
+        });
+        verdicts.push(verdict(&scene, 1));
+    }
+    assert!(verdicts.iter().all(|verdict| verdict.class != Class::Dynamic));
+    let names: Vec<u64> = verdicts.chunks(8).map(|block| block[7].object).collect();
+    assert!((1..5).all(|i| !names[..i].contains(&names[i])), "{names:x?}");
+}
+
+#[test]
+fn what_comes_into_view_as_something_like_it_goes_has_not_changed() {
+    let mut recovery = Recovery::new();
+    for frame in 0..30 {
+        let scene = understand(frame, &mut recovery, |sketch, view| {
+            sketch.modelview = view;
+            sketch.world();
+            // Of alike posts all over the place, four are in sight: always the first, and three others each time.
+            let at = |i: u32| match i {
+                0 => [0.0, 0.0],
+                _ => [((7 * frame + 3 * i) % 11) as f32 * 3.0, ((5 * frame + 7 * i) % 13) as f32 * 3.0],
+            };
+            sketch.draw(&alike([0, 1, 2, 3].map(at)));
+        });
+        assert!(scene.verdicts.iter().all(|v| v.class != Class::Dynamic), "frame {frame}");
+    }
+}
+
+#[test]
+fn a_lift_that_the_program_moves_is_animated() {
+    let mut recovery = Recovery::new();
+    for frame in 0..12 {
+        let scene = understand(frame, &mut recovery, |sketch, view| {
+            sketch.modelview = view;
+            sketch.world();
+            let lift = alike([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [2.0, 2.0]]);
+            let height = Vec3::Y * (0.2 * frame as f32).sin();
+            sketch.draw(&lift.into_iter().map(|corner| corner + height).collect::<Vec<_>>());
+        });
+        assert!(frame < 3 || scene.verdicts[1].class == Class::Dynamic, "frame {frame}");
+    }
+}
+
 #[test]
 fn a_cut_within_the_world_keeps_it_and_another_world_begins_anew() {
     let mut recovery = Recovery::new();

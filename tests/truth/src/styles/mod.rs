@@ -1,5 +1,6 @@
 //! The styles: each a small program that draws as a kind of engine does.
 
+mod alike_plants;
 mod baked_room;
 mod batches;
 mod billboards;
@@ -253,6 +254,12 @@ pub const STYLES: &[Entry] = &[
         has: "a lightmap that is baked as light goes: inverse squares, cosines, shadows",
         frames: 48,
         begin: |gl| Box::new(baked_room::BakedRoom::begin(gl)),
+    },
+    Entry {
+        name: "blocks_with_alike_plants",
+        has: "blocks with matrices of their own and alike plants at other places in each; alike posts in one batch",
+        frames: 60,
+        begin: |gl| Box::new(alike_plants::AlikePlants::begin(gl)),
     },
     Entry {
         name: "split_screen",

@@ -12,7 +12,7 @@ use clap::Args;
 
 use crate::failure::Failure;
 use crate::libdir;
-use crate::options::{DeviceArguments, Mode, ProfileArguments};
+use crate::options::{DeviceArguments, KeepArguments, Mode, ProfileArguments};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -29,6 +29,8 @@ pub struct Arguments {
     /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none (pathtrace)
     #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
     memory: u32,
+    #[command(flatten)]
+    keep: KeepArguments,
     /// Record what the program calls, in apitrace's format. Further processes of the program record into FILE.1.trace
     /// and so on
     #[arg(long, value_name = "FILE", env = "AFTERGLOW_RECORD")]
@@ -95,6 +97,9 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
     }
     if let Some(device) = &arguments.device.device {
         command.env("AFTERGLOW_DEVICE", device);
+    }
+    if let Some(keep) = arguments.keep.keep {
+        command.env("AFTERGLOW_KEEP", if keep { "1" } else { "0" });
     }
     if arguments.hud {
         command.env("AFTERGLOW_HUD", "1");

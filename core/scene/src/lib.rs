@@ -22,6 +22,7 @@ mod objects;
 mod opacity;
 mod pairing;
 mod profile;
+mod program_cache;
 mod recovery;
 mod shapes;
 mod shown;
@@ -39,5 +40,6 @@ mod world;
 
 pub use images::ImageFacts;
 pub use profile::{Profile, ProfileChoice, ProfileError, shipped as shipped_profiles};
+pub use program_cache::ProgramCache;
 pub use recovery::Recovery;
 pub use types::*;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afterglow_records::Paint;
-use afterglow_scene::{Class, MEMORY_BYTES, Profile, Relighting};
+use afterglow_scene::{Class, MEMORY_BYTES, Profile, ProgramCache, Relighting};
 use glam::Vec3;
 
 /// What a frame becomes.
@@ -43,6 +43,9 @@ pub struct PathtraceOptions {
     pub relighting: Relighting,
     /// Bytes of the static world that is remembered when it is not drawn; 0 for none of it.
     pub memory_bytes: u64,
+    /// Where worlds and their recovered lights are kept for the next run of the program; nowhere if none. It holds
+    /// from the first frame on, like the profile.
+    pub cache: Option<ProgramCache>,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -61,6 +64,7 @@ impl Default for PathtraceOptions {
             profile: None,
             relighting: Relighting::Background,
             memory_bytes: MEMORY_BYTES,
+            cache: None,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

@@ -16,6 +16,8 @@ mod surfaces;
 mod tests;
 mod texels;
 
+use std::path::PathBuf;
+
 use afterglow_gl::frame::Frame;
 
 use crate::images::Images;
@@ -54,6 +56,11 @@ impl BakedLight {
         BakedLight { mode, ..BakedLight::default() }
     }
 
+    /// Keeps sources in files of this folder.
+    pub fn set_cache(&mut self, folder: PathBuf) {
+        self.search.cache = Some(folder);
+    }
+
     /// Takes note of a frame's new texels.
     pub fn learn_images(&mut self, frame: &Frame) {
         if self.mode != Relighting::Off {
@@ -75,7 +82,8 @@ impl BakedLight {
         }
         if self.epoch != epoch {
             let (mode, texels) = (self.mode, std::mem::take(&mut self.texels));
-            *self = BakedLight { mode, texels, epoch, ..BakedLight::default() };
+            let search = std::mem::take(&mut self.search).anew();
+            *self = BakedLight { mode, texels, search, epoch, ..BakedLight::default() };
         }
         let is_baked = scene.baked && scene.lights.is_empty() && scene.camera.is_some();
         if !is_baked {

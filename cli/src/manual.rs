@@ -17,11 +17,19 @@ pub struct Arguments {
 }
 
 /// Places that the program reads or writes without being told.
-const FILES: [(&str, &str); 3] = [
+const FILES: [(&str, &str); 5] = [
     ("../lib/afterglow/libGL.so.1", "The library that games load, seen from the program's own folder."),
     (
         "$XDG_CACHE_HOME/afterglow/pipelines",
         "Compiled shaders of each device. May be removed; the next start takes longer then.",
+    ),
+    (
+        "$XDG_CACHE_HOME/afterglow/worlds",
+        "What is remembered of each program's worlds, at most 64 MiB a program and 512 MiB of all. May be removed.",
+    ),
+    (
+        "$XDG_CACHE_HOME/afterglow/lights",
+        "Light sources recovered from baked light, at most 64 MiB. May be removed.",
     ),
     (
         "$XDG_CACHE_HOME/afterglow/lavapipe",

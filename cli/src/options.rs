@@ -1,12 +1,12 @@
 //! Options that commands share. Each is also the environment variable `AFTERGLOW_<NAME>`.
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::sync::Arc;
 
 use afterglow_gpu::GpuOptions;
-use afterglow_scene::{Profile, ProfileChoice, ProfileError};
+use afterglow_scene::{Profile, ProfileChoice, ProfileError, ProgramCache};
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
 
@@ -75,10 +75,45 @@ impl ProfileArguments {
 
     /// The profile for the program that a trace is of, if the trace says which.
     pub fn load_for_trace(&self, trace: &Path) -> Result<Option<Arc<Profile>>, Failure> {
-        let reader = TraceReader::open(trace).map_err(|error| Failure::input(trace, error))?;
-        let program = reader.properties().iter().find(|(name, _)| name == "process.name");
-        self.load(program.map(|(_, program)| Path::new(program.as_str())))
+        self.load(traced_program(trace)?.as_deref())
     }
+}
+
+/// What is kept of a program for its next run.
+#[derive(Debug, Args)]
+pub struct KeepArguments {
+    /// Keep what is remembered of the program's worlds, and the light sources found in them, in the cache folder for its
+    /// next run, and use what was kept there: yes or no (pathtrace)
+    #[arg(
+        long,
+        value_name = "BOOL",
+        env = "AFTERGLOW_KEEP",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "yes",
+        value_parser = clap::builder::BoolishValueParser::new()
+    )]
+    pub keep: Option<bool>,
+}
+
+impl KeepArguments {
+    /// The files of the program that a trace is of, if they are wanted: pictures of a trace that depend on what was
+    /// played before are no measure of anything.
+    pub fn cache_for_trace(&self, trace: &Path) -> Result<Option<ProgramCache>, Failure> {
+        if !self.keep.unwrap_or(false) {
+            return Ok(None);
+        }
+        let program = traced_program(trace)?;
+        let program = program.as_deref().unwrap_or(trace);
+        Ok(afterglow_gpu::lavapipe::cache_folder().map(|folder| ProgramCache::new(&folder, program)))
+    }
+}
+
+/// The path of the program that a trace is of, if the trace says it.
+fn traced_program(trace: &Path) -> Result<Option<PathBuf>, Failure> {
+    let reader = TraceReader::open(trace).map_err(|error| Failure::input(trace, error))?;
+    let program = reader.properties().iter().find(|(name, _)| name == "process.name");
+    Ok(program.map(|(_, program)| program.into()))
 }
 
 /// Frames `A..B` without B, `A..` or a single `A`.

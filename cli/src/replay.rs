@@ -14,7 +14,7 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::{self, Failure};
-use crate::options::{DeviceArguments, Frames, Mode, ProfileArguments, Size};
+use crate::options::{DeviceArguments, Frames, KeepArguments, Mode, ProfileArguments, Size};
 use crate::output;
 use report::Report;
 use session::Session;
@@ -66,6 +66,8 @@ pub struct Arguments {
     /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none (pathtrace)
     #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
     pub memory: u32,
+    #[command(flatten)]
+    keep: KeepArguments,
     /// Move light I by X,Y,Z (world units), to see its shadows follow
     #[arg(long, value_name = "I:X,Y,Z", hide_short_help = true)]
     pub debug_move_light: Option<session::Move>,
@@ -111,6 +113,7 @@ impl Arguments {
         options.replacing = self.baked.replacing();
         options.profile = self.profile.load_for_trace(&self.trace)?;
         options.memory_bytes = u64::from(self.memory) << 20;
+        options.cache = self.keep.cache_for_trace(&self.trace)?;
         options.paint = self.paint.map_or(Paint::Picture, View::paint);
         options.move_light = self.debug_move_light.map(|m| (m.index as usize, m.offset.into()));
         options.move_draw = self.debug_move_draw.map(|m| (Displaced::Draw(m.index), m.offset.into()));

@@ -12,8 +12,8 @@ use clap::Args;
 
 use crate::failure::Failure;
 use crate::libdir;
+use crate::options::{DeviceArguments, KeepArguments, Mode, ProfileArguments};
 use crate::replay::Baked;
-use crate::options::{DeviceArguments, Mode, ProfileArguments};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -33,6 +33,8 @@ pub struct Arguments {
     /// What becomes of light that is baked into the world, where its sources are found
     #[arg(long, value_enum, value_name = "HOW", default_value = "auto", env = "AFTERGLOW_BAKED")]
     baked: Baked,
+    #[command(flatten)]
+    keep: KeepArguments,
     /// Record what the program calls, in apitrace's format. Further processes of the program record into FILE.1.trace
     /// and so on
     #[arg(long, value_name = "FILE", env = "AFTERGLOW_RECORD")]
@@ -100,6 +102,9 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
     }
     if let Some(device) = &arguments.device.device {
         command.env("AFTERGLOW_DEVICE", device);
+    }
+    if let Some(keep) = arguments.keep.keep {
+        command.env("AFTERGLOW_KEEP", if keep { "1" } else { "0" });
     }
     if arguments.hud {
         command.env("AFTERGLOW_HUD", "1");

@@ -6,7 +6,7 @@ use std::sync::{Arc, Once};
 use afterglow_engine::EngineOptions;
 use afterglow_gpu::{Faults, GpuOptions};
 use afterglow_render::{Mode, PathtraceOptions};
-use afterglow_scene::{Profile, ProfileChoice, Replacing};
+use afterglow_scene::{Profile, ProfileChoice, ProgramCache, Replacing};
 use tracing::level_filters::LevelFilter;
 
 /// Samples a pixel and frame unless asked otherwise: a program that is played cannot wait for more.
@@ -15,8 +15,9 @@ const LIVE_SAMPLES: u32 = 1;
 const MOST_SAMPLES: u32 = 65536;
 
 /// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
-/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_MEMORY` (MiB of the undrawn world), `AFTERGLOW_BAKED`
-/// (`auto`, `keep` or `replace` baked light), `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
+/// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_MEMORY` (MiB of the undrawn world), `AFTERGLOW_KEEP` (worlds are kept
+/// for the next run, which they are unless it says no), `AFTERGLOW_BAKED` (`auto`, `keep` or `replace` baked light),
+/// `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
 ///
 /// For tests: the device is lost at the submissions that `AFTERGLOW_DEBUG_LOSE_DEVICE` lists, counted from 1, and has
 /// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_NO_WINDOWS` it cannot show pictures itself.
@@ -39,6 +40,9 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
         pathtrace.memory_bytes = u64::from(mebibytes) << 20;
     }
     pathtrace.replacing = parsed(variable, "AFTERGLOW_BAKED", replacing).unwrap_or(pathtrace.replacing);
+    if parsed(variable, "AFTERGLOW_KEEP", flag).unwrap_or(true) {
+        pathtrace.cache = cache();
+    }
     EngineOptions {
         gpu: GpuOptions {
             device: variable("AFTERGLOW_DEVICE").filter(|name| !name.is_empty()),
@@ -61,6 +65,12 @@ fn profile(variable: &dyn Fn(&str) -> Option<String>) -> Option<Arc<Profile>> {
         tracing::warn!("there is no profile: {error}");
         None
     })
+}
+
+/// Where this program's worlds are kept.
+fn cache() -> Option<ProgramCache> {
+    let program = std::env::current_exe().ok()?;
+    Some(ProgramCache::new(&afterglow_gpu::lavapipe::cache_folder()?, &program))
 }
 
 /// Failures to make up.
@@ -143,6 +153,15 @@ mod tests {
         assert_eq!(options.mode, None);
         assert!(!options.gpu.validation && options.gpu.device.is_none());
         assert_eq!(options.pathtrace.spp, 1);
+    }
+
+    #[test]
+    fn worlds_are_kept_unless_it_is_refused() {
+        let cache = |keep: &str| {
+            from_variables(&|name| (name == "AFTERGLOW_KEEP").then(|| keep.to_owned())).pathtrace.cache
+        };
+        assert_eq!(cache("no"), None);
+        assert_eq!(cache("").is_some(), afterglow_gpu::lavapipe::cache_folder().is_some());
     }
 
     #[test]

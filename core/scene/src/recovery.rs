@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afterglow_gl::frame::{Frame, ImageKey, Rect};
-use glam::{DMat3, Vec3};
+use glam::{DMat3, DMat4, Vec3};
 
 use crate::baked::BakedLight;
 use crate::classify::classify;
@@ -15,6 +15,7 @@ use crate::lights::{self, Lighting};
 use crate::memory::{Memory, MemoryCounts};
 use crate::phase::Phase;
 use crate::profile::{Evidence, Overrides, Profile};
+use crate::program_cache::ProgramCache;
 use crate::shapes::Shapes;
 use crate::shown::shown;
 use crate::sky;
@@ -86,10 +87,11 @@ impl Recovery {
         self.memory.set_limit(bytes);
     }
 
-    /// Keeps what is remembered in a file, for the next run of the program; what the file holds is used where the
-    /// program draws the same world again. A file that cannot be read or written counts as empty.
-    pub fn set_cache(&mut self, path: std::path::PathBuf) {
-        self.memory.set_cache(path);
+    /// Keeps what is remembered, and the sources of baked light, in files for the next run of the program; what they
+    /// hold is used where the program draws the same world again. A file that cannot be read counts as empty.
+    pub fn set_cache(&mut self, cache: &ProgramCache) {
+        self.memory.set_cache(cache.worlds.clone());
+        self.baked.set_cache(cache.lights.clone());
     }
 
     /// How much of the world is remembered.
@@ -136,12 +138,21 @@ impl Recovery {
             self.overrides.relit(&mut scene);
         }
         ended(Phase::Baked);
+        self.carry_memory(&scene);
         self.memory.remember(frame, &self.images, &mut scene);
         ended(Phase::Memory);
         self.images.forget(frame);
         self.baked.forget_images(frame);
         ended(Phase::Images);
         scene
+    }
+
+    /// The same world in other coordinates: what is remembered has its place in them, unless the program or a profile
+    /// has given the scene coordinates of its own.
+    fn carry_memory(&mut self, scene: &Scene) {
+        let Some(change) = self.tracker.change.take() else { return };
+        let is_own = scene.camera.is_none_or(|camera| Some(camera.view) != self.tracker.view());
+        self.memory.carry_over(if is_own { DMat4::IDENTITY } else { change }, self.tracker.epoch);
     }
 
     fn scene(&mut self, frame: &mut Frame, ended: &mut dyn FnMut(Phase)) -> Scene {
@@ -286,4 +297,46 @@ fn flat_scene(draws: &[DrawFacts]) -> Scene {
         base: None,
     };
     Scene { verdicts: draws.iter().map(verdict).collect(), ..Scene::default() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a light was needed in each of so many frames.
+    fn frames(daylight: &mut Daylight, has_lights: bool, count: i32) -> Vec<bool> {
+        (0..count).map(|_| daylight.is_needed(has_lights, 1)).collect()
+    }
+
+    #[test]
+    fn the_first_frame_of_a_world_says_whether_a_light_is_needed() {
+        let mut daylight = Daylight::default();
+        assert!(daylight.is_needed(false, 0));
+        assert!(!daylight.is_needed(true, 1));
+        assert!(daylight.is_needed(false, 2));
+    }
+
+    #[test]
+    fn a_few_dark_frames_are_no_dusk_and_a_flash_is_no_dawn() {
+        let mut daylight = Daylight::default();
+        frames(&mut daylight, true, 5);
+        assert!(!frames(&mut daylight, false, DAYLIGHT_FRAMES - 1).contains(&true));
+        assert!(!frames(&mut daylight, true, 1).contains(&true));
+        let mut dark = Daylight::default();
+        frames(&mut dark, false, 5);
+        assert!(!frames(&mut dark, true, DAYLIGHT_FRAMES - 1).contains(&false));
+    }
+
+    #[test]
+    fn lights_that_stay_away_are_made_up_for_once() {
+        let mut daylight = Daylight::default();
+        frames(&mut daylight, true, 5);
+        let needed = frames(&mut daylight, false, 3 * DAYLIGHT_FRAMES);
+        let from = needed.iter().position(|needed| *needed).unwrap();
+        assert_eq!(from as i32, DAYLIGHT_FRAMES);
+        assert!(needed[from..].iter().all(|needed| *needed), "it changes once");
+        // Nor does it flicker where lights come and go with every frame.
+        let flicker: Vec<bool> = (0..400).map(|i| daylight.is_needed(i % 2 == 0, 1)).collect();
+        assert!(flicker.iter().all(|needed| *needed));
+    }
 }

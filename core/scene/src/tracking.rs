@@ -75,6 +75,8 @@ pub struct Tracker {
     frame: u32,
     /// Counts worlds.
     pub epoch: u64,
+    /// From the coordinates before to those of now, since the last one who took it, where only those have changed.
+    pub change: Option<DMat4>,
 }
 
 impl Tracker {
@@ -119,6 +121,11 @@ impl Tracker {
     pub fn foresight<'a>(&self, transforms: &'a [TransformFacts]) -> Foresight<'a> {
         let view = self.view.map(|view| self.velocity * view);
         Foresight { transforms, before: self.view, view, is_sharp: false, frame: self.frame }
+    }
+
+    /// World to eye space in the last frame that was followed.
+    pub fn view(&self) -> Option<DMat4> {
+        self.view
     }
 
     /// Whether a piece is known to stand still in the world, wherever it is drawn.
@@ -171,7 +178,9 @@ impl Tracker {
         if !is_young || !is_same || times + 1 < BASE_TRUSTED {
             return view;
         }
-        self.objects.transform(matrix::rigid_inverse(offset), snapped);
+        let change = matrix::rigid_inverse(offset);
+        self.objects.transform(change, snapped);
+        self.change = Some(change);
         (self.base, self.offset, self.velocity) = ((BASE_TRUSTED, 0), None, DMat4::IDENTITY);
         self.epoch += 1;
         world.base
@@ -311,7 +320,7 @@ pub fn scale_of(matrix: DMat4) -> f64 {
 }
 
 /// The identity, exactly, for what is the identity but for rounding.
-fn snapped(model: DMat4) -> DMat4 {
+pub fn snapped(model: DMat4) -> DMat4 {
     let reach = model.w_axis.truncate().length();
     if reach < 1e-4 && model.abs_diff_eq(DMat4::IDENTITY, 2e-6) { DMat4::IDENTITY } else { model }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use afterglow_records::Paint;
-use afterglow_scene::{Class, MEMORY_BYTES, Profile, Relighting, Replacing};
+use afterglow_scene::{Class, MEMORY_BYTES, Profile, ProgramCache, Relighting, Replacing};
 use glam::Vec3;
 
 /// What a frame becomes.
@@ -45,6 +45,9 @@ pub struct PathtraceOptions {
     pub replacing: Replacing,
     /// Bytes of the static world that is remembered when it is not drawn; 0 for none of it.
     pub memory_bytes: u64,
+    /// Where worlds and their recovered lights are kept for the next run of the program; nowhere if none. It holds
+    /// from the first frame on, like the profile.
+    pub cache: Option<ProgramCache>,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -64,6 +67,7 @@ impl Default for PathtraceOptions {
             relighting: Relighting::Background,
             replacing: Replacing::WhereGood,
             memory_bytes: MEMORY_BYTES,
+            cache: None,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

@@ -91,6 +91,9 @@ impl Tracer {
         let mut recovery =
             Recovery::with_profile(options.profile.clone()).with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);
+        if let Some(cache) = &options.cache {
+            recovery.set_cache(cache);
+        }
         Self {
             options,
             recovery,

@@ -3,7 +3,9 @@
 
 use std::sync::Arc;
 
-use afterglow_gl::frame::{Draw, Frame, Operation, RetainedRange, Topology, VertexSource};
+use afterglow_gl::frame::{
+    Draw, Frame, Hint, HintMaterial, Operation, RetainedRange, Topology, VertexSource,
+};
 use afterglow_scene::{Class, Look, Pass, Scene, Unseen, Verdict};
 use hashbrown::HashMap;
 
@@ -75,12 +77,22 @@ impl Appender<'_> {
         })
     }
 
+    /// What a program has said of a look's material, as draws name it.
+    fn hint(&mut self, look: &Look) -> u32 {
+        if look.said == HintMaterial::default() {
+            return 0;
+        }
+        self.frame.hints.push(Hint { material: look.said, ..Hint::default() });
+        self.frame.hints.len() as u32
+    }
+
     /// A draw with the state of a look. Rays read neither matrices nor viewports nor lights of draws: those are any.
     fn state(&mut self, look: &Arc<Look>) -> Draw {
         fn push<T>(table: &mut Vec<T>, entry: T) -> u32 {
             table.push(entry);
             table.len() as u32 - 1
         }
+        let hint = self.hint(look);
         let state = Draw {
             source: VertexSource::Retained { range: 0, first_index: 0 },
             layout: Default::default(),
@@ -97,8 +109,7 @@ impl Appender<'_> {
             texture_matrices: push(&mut self.frame.texture_matrices, look.texture_matrices),
             clip_planes: 0,
             current: push(&mut self.frame.current, look.current),
-            // What a program said of materials is not remembered.
-            hint: 0,
+            hint,
         };
         self.looks.insert(Arc::as_ptr(look), state);
         state

@@ -234,3 +234,35 @@ fn rasterized_it_is_as_if_nothing_were_said() {
     let said = Said { frame: Some(&|gl| lamp_at(gl, [0.0; 3])), floor: Some(&floor), slab: None };
     assert!(picture(&said) == picture(&Said::default()));
 }
+
+#[test]
+fn what_gives_off_light_lights_the_floor_when_it_is_not_drawn() {
+    let green_over_red = |memory: u64| {
+        let mut stage = Stage::new(Mode::Pathtrace, |options| options.memory_bytes = memory);
+        let glow = |gl: &mut Context| gl.scene_emission(0.0, 8.0, 0.0);
+        let frame = |gl: &mut Context| lamp_at(gl, [0.0, 5.0, 0.0]);
+        for _ in 0..10 {
+            draw(&mut stage, &Said { frame: Some(&frame), slab: Some(&glow), ..Said::default() });
+        }
+        floor_alone(&mut stage);
+        let picture = stage.picture();
+        let sum = |channel: usize| picture.chunks(4).map(|pixel| f64::from(pixel[channel])).sum::<f64>();
+        sum(1) / sum(0)
+    };
+    let (with, without) = (green_over_red(1 << 20), green_over_red(0));
+    assert!(with > 1.05 * without, "{with} {without}");
+    assert_valid();
+}
+
+/// One frame in which the slab is not drawn.
+fn floor_alone(stage: &mut Stage) {
+    let gl = &mut stage.gl;
+    gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.load_identity();
+    gl.translate(0.0, -0.5, -6.0);
+    gl.rotate(35.0, 1.0, 0.0, 0.0);
+    gl.scene_defaults();
+    lamp_at(gl, [0.0, 5.0, 0.0]);
+    slab(gl, 4.0);
+    gl.swap_buffers();
+}

@@ -259,3 +259,25 @@ fn what_is_gone_shadows_nothing() {
     assert!(bright > shadowed + 30, "{bright} {shadowed}");
     assert_valid();
 }
+
+#[test]
+fn what_the_camera_turned_away_from_still_shadows() {
+    // Stood at first so that the slab is in the picture; then it looks down by degrees until it is above the picture, and
+    // the program culls it. Both programs end with the same picture rasterized.
+    let shadow = |memory: u64, was_seen: bool| {
+        let mut stage = Stage::new(Mode::Pathtrace, |options| options.memory_bytes = memory);
+        for step in 0..=10 {
+            let turned = DOWN * step as f32 / 10.0;
+            stand(&mut stage, was_seen && turned < 0.9 * DOWN, turned);
+        }
+        // Exposure settles.
+        for _ in 0..30 {
+            stand(&mut stage, false, DOWN);
+        }
+        stage.picture().chunks(4).map(|pixel| f64::from(pixel[1])).sum::<f64>()
+    };
+    let (with, without, never) = (shadow(1 << 20, true), shadow(0, true), shadow(1 << 20, false));
+    assert!(with < 0.98 * without, "the slab that was seen shadows the floor: {with} {without}");
+    assert!((without / never - 1.0).abs() < 0.005, "without a memory nothing does: {without} {never}");
+    assert_valid();
+}

@@ -17,6 +17,8 @@ mod surfaces;
 mod tests;
 mod texels;
 
+use std::path::PathBuf;
+
 use afterglow_gl::frame::Frame;
 
 use crate::images::Images;
@@ -65,6 +67,11 @@ impl BakedLight {
         BakedLight { mode, replacing, ..BakedLight::default() }
     }
 
+    /// Keeps sources in files of this folder.
+    pub fn set_cache(&mut self, folder: PathBuf) {
+        self.of_world.search.cache = Some(folder);
+    }
+
     /// Takes note of a frame's new texels.
     pub fn learn_images(&mut self, frame: &Frame) {
         if self.mode != Relighting::Off {
@@ -85,7 +92,8 @@ impl BakedLight {
             return;
         }
         if self.of_world.epoch != epoch {
-            self.of_world = OfWorld { epoch, ..OfWorld::default() };
+            let search = std::mem::take(&mut self.of_world.search).anew();
+            self.of_world = OfWorld { epoch, search, ..OfWorld::default() };
         }
         let is_given = are_given(&scene.lights) && self.replacing != Replacing::Never;
         let is_baked = scene.baked && scene.lights.is_empty();

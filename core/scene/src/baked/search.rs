@@ -1,18 +1,24 @@
 //! The search for sources: at once, or on a thread beside the frames.
 
+use std::f32::consts::PI;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use afterglow_relight::{Baked, Emitter, Found, Options, Patch, Sky, recover};
+use afterglow_relight::{Baked, Emitter, Falloff, Found, Light, Options, Patch, Sky, Source, cache, recover};
 use glam::Vec3;
 
 use super::relit::{Bakes, Relit};
 use super::sources;
+use crate::program_cache;
 use crate::types::{Relight, SceneLight};
 
 /// What a search may cost; see [`Options::rays`].
 const RAYS: u64 = 3_000_000;
+/// Bytes of a file of what was found, and of all such files, at most.
+const MOST_FILE_BYTES: u64 = 8 << 20;
+const MOST_FOLDER_BYTES: u64 = 64 << 20;
 /// Lights are used from this share of explained area on, up to this residual.
 const LEAST_EXPLAINED: f32 = 0.4;
 const MOST_RESIDUAL: f32 = 0.4;
@@ -76,6 +82,8 @@ pub struct Search {
     /// Found, and nobody has asked for it yet.
     found: Option<Solution>,
     running: Option<Running>,
+    /// The folder of what was found before.
+    pub cache: Option<PathBuf>,
 }
 
 #[derive(Debug)]
@@ -91,6 +99,11 @@ impl Drop for Running {
 }
 
 impl Search {
+    /// Nothing is searched any more, nor known but for the folder.
+    pub fn anew(self) -> Search {
+        Search { cache: self.cache, ..Search::default() }
+    }
+
     /// Whether a thread searches.
     pub fn is_running(&self) -> bool {
         self.running.is_some()
@@ -99,15 +112,16 @@ impl Search {
     /// Searches, on a thread where `in_background`.
     pub fn begin(&mut self, problem: Problem, in_background: bool) {
         if !in_background {
-            self.found = solve(&problem, &AtomicBool::new(false));
+            self.found = solve(&problem, self.cache.as_deref(), &AtomicBool::new(false));
             return;
         }
         let (sender, result) = channel();
         let cancel = Arc::new(AtomicBool::new(false));
         let running = Running { cancel: cancel.clone(), result };
         let thread = std::thread::Builder::new().name("relight".into());
+        let cache = self.cache.clone();
         let work = move || {
-            if let Some(solution) = solve(&problem, &cancel) {
+            if let Some(solution) = solve(&problem, cache.as_deref(), &cancel) {
                 // Nobody waits any more: so be it.
                 let _ = sender.send(solution);
             }
@@ -132,7 +146,7 @@ impl Search {
 
 /// None where it was cancelled. Where a sky is drawn it is let in where nothing was seen; if that explains too little, the holes
 /// in what is known of the world may not be sky.
-fn solve(problem: &Problem, cancel: &AtomicBool) -> Option<Solution> {
+fn solve(problem: &Problem, cache: Option<&Path>, cancel: &AtomicBool) -> Option<Solution> {
     let found = |sky| {
         let baked = Baked {
             triangles: &problem.triangles,
@@ -141,7 +155,10 @@ fn solve(problem: &Problem, cancel: &AtomicBool) -> Option<Solution> {
             sky,
         };
         let options = Options { saturation: Some(problem.saturation), rays: RAYS, ..Options::default() };
-        recover(&baked, &options, cancel)
+        match cache {
+            Some(folder) => recover_once(&baked, &options, folder, cancel),
+            None => recover(&baked, &options, cancel),
+        }
     };
     let mut best = found(if problem.has_sky { Sky::Open } else { Sky::None })?;
     if problem.has_sky && !is_good(best.residual, best.explained) {
@@ -150,6 +167,45 @@ fn solve(problem: &Problem, cancel: &AtomicBool) -> Option<Solution> {
         best = Found { rays, ..if closed.residual < best.residual { closed } else { best } };
     }
     Some(solution(problem, &best))
+}
+
+/// As [`recover`], unless its result is in a file of this folder; then it is.
+fn recover_once(baked: &Baked, options: &Options, folder: &Path, cancel: &AtomicBool) -> Option<Found> {
+    let key = cache::key(baked, options);
+    let path = folder.join(format!("{key:016x}"));
+    match program_cache::read(&path, MOST_FILE_BYTES) {
+        Ok(None) => {}
+        Ok(Some(bytes)) => match cache::from_bytes(key, &bytes).filter(|found| is_sound(found, baked)) {
+            Some(found) => return Some(found),
+            None => tracing::warn!("{}: light sources are damaged or of another version", path.display()),
+        },
+        Err(error) => tracing::warn!("{}: light sources cannot be read: {error}", path.display()),
+    }
+    let found = recover(baked, options, cancel)?;
+    if let Err(error) = program_cache::write(&path, &cache::to_bytes(key, &found), MOST_FOLDER_BYTES) {
+        tracing::debug!("{}: light sources cannot be kept: {error}", path.display());
+    }
+    Some(found)
+}
+
+/// Whether something can have been found so: a file's bytes may be anybody's.
+fn is_sound(found: &Found, baked: &Baked) -> bool {
+    let is_light = |light: &Light| {
+        let is_finite = light.power.is_finite() && light.power.min_element() >= 0.0;
+        is_finite
+            && match light.source {
+                Source::Point { position, radius, falloff } => {
+                    let reach = if let Falloff::Linear { reach } = falloff { reach } else { 1.0 };
+                    position.is_finite() && radius.is_finite() && radius >= 0.0 && reach > 0.0
+                }
+                Source::Sun { direction, angular_radius } => {
+                    direction.is_normalized() && (0.0..PI).contains(&angular_radius)
+                }
+                Source::Area { emitter } => emitter < baked.emitters.len(),
+                Source::Sky => true,
+            }
+    };
+    found.lights.iter().all(is_light) && found.ambient.is_finite() && found.bounce.is_finite()
 }
 
 fn is_good(residual: f32, explained: f32) -> bool {

@@ -68,10 +68,7 @@ pub struct Cell {
 impl Cell {
     /// A cell of these passes.
     pub fn new(kind: u32, model: Mat4, passes: Vec<Pass>, entries: Vec<u32>, drawn: u32) -> Cell {
-        let mut bounds = [Vec3::INFINITY, Vec3::NEG_INFINITY];
-        for corner in passes.iter().take(1).flat_map(|pass| pass.triangles(model)).flatten().flatten() {
-            bounds = [bounds[0].min(corner), bounds[1].max(corner)];
-        }
+        let bounds = bounds(&passes, model);
         let bytes = passes.iter().map(Pass::bytes).sum::<u64>() + 64 * entries.len() as u64;
         Cell {
             kind,
@@ -98,6 +95,15 @@ impl Cell {
     pub fn is_drawn(&self, frame: u32) -> bool {
         self.drawn == (frame, self.entries.len() as u32)
     }
+}
+
+/// Least and greatest corner of the box of a cell's surface, world space.
+pub fn bounds(passes: &[Pass], model: Mat4) -> [Vec3; 2] {
+    let mut bounds = [Vec3::INFINITY, Vec3::NEG_INFINITY];
+    for corner in passes.iter().take(1).flat_map(|pass| pass.triangles(model)).flatten().flatten() {
+        bounds = [bounds[0].min(corner), bounds[1].max(corner)];
+    }
+    bounds
 }
 
 /// Triangles on their way into cells: their vertices, three a triangle.

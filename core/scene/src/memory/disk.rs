@@ -1,30 +1,21 @@
-//! The file that brings worlds through to the next run of a program.
-//!
-//! A header (what it is, version, length and hash of the rest), then worlds, the latest last. A file that is damaged
-//! in any way counts as absent. It is written beside its place and then renamed, in a thread of its own.
+//! Worlds of earlier runs of a program: what the file holds of the world that is drawn now is taken up, and the file
+//! is written anew. Reading, and writing but for the last time, take place on threads of their own.
 
-use std::fs;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::thread::JoinHandle;
-
-use xxhash_rust::xxh3::xxh3_64;
+use std::thread::{Builder, JoinHandle};
 
 use super::Memory;
-use super::bytes::{Reader, Writer};
-use super::encode::{read_world, write_world};
+use super::file::{self, Known};
 use super::store::{ImagesByContent, StoredCell, StoredWorld};
 use crate::images::Images;
 
-/// What the file begins with; its last word is the version of what follows.
-const HEADER: [u32; 4] = [u32::from_le_bytes(*b"AGLO"), u32::from_le_bytes(*b"WMEM"), 0x0102_0304, 1];
-/// Bytes of a file, at most.
-const MOST_BYTES: u64 = 64 << 20;
-/// Worlds of a file, at most.
-const MOST_WORLDS: usize = 64;
 /// Cells that are too few to be worth a world.
 const LEAST_CELLS: usize = 4;
+/// Bytes of what a world keeps, about, at most.
+const MOST_WORLD_BYTES: u64 = 32 << 20;
+/// Triangles that are taken up in a frame: the device builds what is new in that frame.
+const MOST_ADOPTED: usize = 1 << 14;
 
 /// A world of the file.
 #[derive(Debug)]
@@ -34,6 +25,8 @@ struct Kept {
     is_met: bool,
     /// Of each cell, whether it was taken up.
     adopted: Vec<bool>,
+    /// The cell from which on cells are still to be tried.
+    next: usize,
 }
 
 /// The file, and what is in it.
@@ -41,33 +34,44 @@ struct Kept {
 pub struct Disk {
     path: PathBuf,
     worlds: Vec<Kept>,
+    /// What is in the file that was read from it or written to it here.
+    known: Known,
     /// The world that was looked for last.
     next: usize,
-    writer: Option<JoinHandle<()>>,
+    reader: Option<JoinHandle<(Vec<StoredWorld>, Known)>>,
+    writer: Option<JoinHandle<Known>>,
+    /// There is something that was not written yet.
+    is_new: bool,
 }
 
 impl Disk {
     /// Reads a file, if there is one.
     pub fn open(path: PathBuf) -> Disk {
-        let worlds = match read_file(&path) {
-            Ok(bytes) => decode(&bytes).unwrap_or_default(),
-            Err(_) => Vec::new(),
-        };
-        let kept = |world| Kept { world: Arc::new(world), is_met: false, adopted: Vec::new() };
-        Disk { path, worlds: worlds.into_iter().map(kept).collect(), next: 0, writer: None }
+        let from = path.clone();
+        let reader = thread(move || file::read(&from));
+        let (worlds, known) = (Vec::new(), Known::new());
+        Disk { path, worlds, known, next: 0, reader, writer: None, is_new: false }
+    }
+
+    /// Waits until the file is read. That it is waited for makes runs alike.
+    fn read(&mut self) {
+        let Some((worlds, known)) = self.reader.take().and_then(|reader| reader.join().ok()) else { return };
+        self.worlds.splice(0..0, worlds.into_iter().map(Kept::new));
+        self.known.extend(known);
     }
 
     /// The program draws another world now.
     pub fn leave(&mut self) {
         for kept in &mut self.worlds {
-            (kept.is_met, kept.adopted) = (false, Vec::new());
+            (kept.is_met, kept.adopted, kept.next) = (false, Vec::new(), 0);
         }
     }
 
-    /// Takes up what there is of the world that is drawn.
+    /// Takes up what there is of the world that is drawn, or a part of it.
     pub fn adopt(&mut self, memory: &mut Memory, images: &Images) {
-        // One at a time: looking for a world takes a while.
-        self.next = (self.next + 1) % self.worlds.len().max(1);
+        self.read();
+        // One at a time, the latest first: looking for a world takes a while.
+        self.next = self.next.checked_sub(1).unwrap_or(self.worlds.len().saturating_sub(1));
         if let Some(kept) = self.worlds.get_mut(self.next) {
             kept.is_met = kept.is_met || memory.has_met(&kept.world);
         }
@@ -75,41 +79,66 @@ impl Disk {
             return;
         }
         let by_content = images.by_content();
+        let mut budget = MOST_ADOPTED;
         for kept in self.worlds.iter_mut().filter(|kept| kept.is_wanted()) {
-            kept.adopt(memory, &by_content);
+            kept.adopt(memory, &by_content, &mut budget);
         }
     }
 
-    /// Writes what is remembered in place of the world that it came from, beside the others.
+    /// Writes what is remembered in place of the world that it came from, beside the others, once nothing else is
+    /// being written.
     pub fn save(&mut self, memory: &Memory, images: &Images) {
         let mut world = memory.stored(|image| images.get(image).map(|facts| facts.content()));
         if world.cells.len() < LEAST_CELLS {
             return;
         }
+        self.read();
         let mut adopted = vec![true; world.cells.len()];
         for kept in self.worlds.extract_if(.., |kept| kept.is_met) {
             world.cells.extend(kept.left());
         }
+        world.bound(MOST_WORLD_BYTES);
         adopted.resize(world.cells.len(), false);
-        self.worlds.push(Kept { world: Arc::new(world), is_met: true, adopted });
-        let excess = self.worlds.len().saturating_sub(MOST_WORLDS);
-        self.worlds.drain(..excess);
-        let worlds: Vec<_> = self.worlds.iter().map(|kept| kept.world.clone()).collect();
-        self.finish();
-        let path = self.path.clone();
-        // A file that cannot be written is not worth a word to the program's user with every try.
-        self.writer = Some(std::thread::spawn(move || drop(write_file(&path, &encode(&worlds)))));
+        self.worlds.push(Kept { is_met: true, adopted, ..Kept::new(world) });
+        self.is_new = true;
+        if self.writer.as_ref().is_none_or(JoinHandle::is_finished) {
+            self.write();
+        }
     }
 
-    /// Waits until the file is written.
-    pub fn finish(&mut self) {
-        if let Some(writer) = self.writer.take() {
-            drop(writer.join());
+    fn write(&mut self) {
+        self.join();
+        let worlds: Vec<_> = self.worlds.iter().map(|kept| kept.world.clone()).collect();
+        let (path, known) = (self.path.clone(), self.known.clone());
+        self.writer = thread(move || file::write(&path, &worlds, &known));
+        self.is_new = false;
+    }
+
+    fn join(&mut self) {
+        if let Some(written) = self.writer.take().and_then(|writer| writer.join().ok()) {
+            self.known.extend(written);
         }
+    }
+
+    /// Waits until everything is written.
+    pub fn finish(&mut self) {
+        if self.is_new {
+            self.write();
+        }
+        self.join();
     }
 }
 
+/// A thread; none where the system has no more.
+fn thread<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Option<JoinHandle<T>> {
+    Builder::new().name("worlds".into()).spawn(work).ok()
+}
+
 impl Kept {
+    fn new(world: StoredWorld) -> Kept {
+        Kept { world: Arc::new(world), is_met: false, adopted: Vec::new(), next: 0 }
+    }
+
     /// Whether there is anything left of it to take up.
     fn is_wanted(&self) -> bool {
         self.is_met && (self.adopted.len() < self.world.cells.len() || self.adopted.contains(&false))
@@ -126,146 +155,44 @@ impl Kept {
             .map(|(_, cell)| cell.clone())
     }
 
-    fn adopt(&mut self, memory: &mut Memory, images: &ImagesByContent) {
+    /// Takes cells up from where the last call ended, until the budget of triangles is spent.
+    fn adopt(&mut self, memory: &mut Memory, images: &ImagesByContent, budget: &mut usize) {
         self.adopted.resize(self.world.cells.len(), false);
-        for (cell, adopted) in self.world.cells.iter().zip(&mut self.adopted) {
-            *adopted = *adopted || memory.adopt(cell, images);
+        for (number, cell) in self.world.cells.iter().enumerate().skip(self.next) {
+            if *budget == 0 {
+                self.next = number;
+                return;
+            }
+            if !self.adopted[number] && memory.adopt(cell, images) {
+                self.adopted[number] = true;
+                *budget = budget.saturating_sub(cell.triangles());
+            }
         }
+        self.next = 0;
     }
-}
-
-/// A file's bytes; the oldest worlds are left out if there are too many.
-fn encode(worlds: &[Arc<StoredWorld>]) -> Vec<u8> {
-    let mut parts: Vec<Vec<u8>> = Vec::new();
-    let mut bytes = 0;
-    for world in worlds.iter().rev() {
-        let mut writer = Writer::default();
-        write_world(&mut writer, world);
-        bytes += writer.bytes.len() as u64;
-        if bytes > MOST_BYTES - 64 {
-            break;
-        }
-        parts.push(writer.bytes);
-    }
-    let mut payload = Writer::default();
-    payload.number(parts.len());
-    parts.iter().rev().for_each(|part| payload.bytes.extend_from_slice(part));
-    let mut file = Writer::default();
-    file.put(&HEADER);
-    file.put(&[payload.bytes.len() as u64, xxh3_64(&payload.bytes)]);
-    file.bytes.append(&mut payload.bytes);
-    file.bytes
-}
-
-/// The worlds of a file; none if it is damaged or of another version.
-fn decode(bytes: &[u8]) -> Option<Vec<StoredWorld>> {
-    let mut reader = Reader::new(bytes);
-    let (header, [length, hash]) = (reader.get::<[u32; 4]>()?, reader.get::<[u64; 2]>()?);
-    let payload = reader.take(usize::try_from(length).ok()?)?;
-    if header != HEADER || !reader.is_done() || xxh3_64(payload) != hash {
-        return None;
-    }
-    decode_payload(payload)
-}
-
-fn decode_payload(payload: &[u8]) -> Option<Vec<StoredWorld>> {
-    let mut reader = Reader::new(payload);
-    let count = reader.count(8).filter(|count| *count <= MOST_WORLDS)?;
-    let worlds: Option<Vec<_>> = (0..count).map(|_| read_world(&mut reader)).collect();
-    worlds.filter(|_| reader.is_done())
-}
-
-fn read_file(path: &Path) -> io::Result<Vec<u8>> {
-    if fs::metadata(path)?.len() > MOST_BYTES {
-        return Err(io::ErrorKind::FileTooLarge.into());
-    }
-    fs::read(path)
-}
-
-fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder)?;
-    }
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}.new", std::process::id()));
-    let written = fs::File::create(&beside).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.sync_all()
-    });
-    written.and_then(|()| fs::rename(&beside, path)).inspect_err(|_| drop(fs::remove_file(&beside)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::memory::tests::remembered;
-    use proptest::prelude::*;
 
-    fn file() -> Vec<u8> {
-        let (memory, images) = remembered();
-        let world = memory.stored(|image| images.get(image).map(|facts| facts.content()));
-        assert!(world.cells.len() > 2);
-        encode(&[Arc::new(StoredWorld::default()), Arc::new(world)])
-    }
-
-    #[test]
-    fn what_is_written_is_read() {
-        let bytes = file();
-        let worlds = decode(&bytes).unwrap();
-        assert_eq!(worlds.len(), 2);
-        let again: Vec<_> = worlds.into_iter().map(Arc::new).collect();
-        assert_eq!(encode(&again), bytes);
-    }
-
-    #[test]
-    fn a_file_that_is_cut_or_of_another_version_counts_as_absent() {
-        let mut bytes = file();
-        for length in (0..bytes.len()).step_by(7) {
-            assert!(decode(&bytes[..length]).is_none());
-        }
-        bytes[12] += 1;
-        assert!(decode(&bytes).is_none());
-    }
-
-    proptest! {
-        #[test]
-        fn a_flipped_bit_is_found(at in 0.0..1.0_f64, bit in 0..8) {
-            let mut bytes = file();
-            let at = (at * bytes.len() as f64) as usize;
-            bytes[at] ^= 1_u8 << bit;
-            prop_assert!(decode(&bytes).is_none());
-        }
-
-        /// As if the hash were right: anything may come out, as long as it is sound.
-        #[test]
-        fn damage_that_no_hash_tells_of_is_borne(damage in prop::collection::vec((0.0..1.0_f64, any::<u8>()), 1..9)) {
-            let mut payload = file().split_off(32);
-            for (at, value) in damage {
-                let at = (at * payload.len() as f64) as usize;
-                payload[at] = value;
-            }
-            let mut memory = Memory::default();
-            for world in decode_payload(&payload).unwrap_or_default() {
-                memory.has_met(&world);
-                for cell in &world.cells {
-                    memory.adopt(cell, &ImagesByContent::new());
-                }
-            }
-        }
+    fn folder(name: &str) -> PathBuf {
+        std::env::temp_dir().join(format!("afterglow-memory-{name}-{}", std::process::id()))
     }
 
     #[test]
     fn a_world_comes_back_once_it_is_met_again() {
-        let folder = std::env::temp_dir().join(format!("afterglow-memory-{}", std::process::id()));
+        let folder = folder("met");
         let path = folder.join("worlds");
         let (memory, images) = remembered();
         let mut disk = Disk::open(path.clone());
         disk.save(&memory, &images);
         disk.finish();
         let mut disk = Disk::open(path);
-        assert_eq!(disk.worlds.len(), 1);
         let mut empty = Memory::default();
         disk.adopt(&mut empty, &images);
+        assert_eq!(disk.worlds.len(), 1);
         assert_eq!(empty.counts().cells, 0, "nothing of it was drawn yet");
         // A memory of a part of it: all cells but the last two.
         let (mut partial, images) = remembered();
@@ -279,6 +206,25 @@ mod tests {
         assert_eq!(after.entries, memory.counts().entries);
         disk.adopt(&mut partial, &images);
         assert_eq!(partial.counts(), after);
-        drop(fs::remove_dir_all(folder));
+        drop(std::fs::remove_dir_all(folder));
+    }
+
+    #[test]
+    fn what_is_met_again_is_one_world_still() {
+        let folder = folder("again");
+        let path = folder.join("worlds");
+        let mut lengths = Vec::new();
+        for _ in 0..3 {
+            let (mut memory, images) = remembered();
+            let mut disk = Disk::open(path.clone());
+            disk.adopt(&mut memory, &images);
+            disk.save(&memory, &images);
+            disk.save(&memory, &images);
+            disk.finish();
+            lengths.push(std::fs::metadata(&path).unwrap().len());
+        }
+        assert_eq!(file::read(&path).0.len(), 1);
+        assert_eq!(lengths[1], lengths[2]);
+        drop(std::fs::remove_dir_all(folder));
     }
 }

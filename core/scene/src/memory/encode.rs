@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use afterglow_gl::frame::{
-    Blend, BlendEquation, BlendFactor, Cull, Depth, FixedState, ImageKey, RasterState, RetainedRange,
-    Sampler, StateWords, TEXTURE_UNITS, TextureBinding, VertexLayout, Wrap,
+    Blend, BlendEquation, BlendFactor, Cull, Depth, FixedState, HintMaterial, ImageKey, RasterState,
+    RetainedRange, Sampler, StateWords, TEXTURE_UNITS, TextureBinding, VertexLayout, Wrap,
 };
 use glam::Mat4;
 
 use super::bytes::{COMPARES, Reader, Writer};
 use super::cells::Pass;
-use super::look::Look;
+use super::look::{Look, MAPS, maps};
 use super::store::{StoredCell, StoredPass, StoredWorld};
 
 use BlendFactor as F;
@@ -70,10 +70,11 @@ pub fn write_world(writer: &mut Writer, world: &StoredWorld) {
         writer.number(cell.sides.len());
         cell.sides.iter().for_each(|side| writer.put(&u8::from(*side)));
         writer.number(cell.passes.len());
-        for StoredPass { pass, contents } in &cell.passes {
+        for StoredPass { pass, contents, map_contents } in &cell.passes {
             writer.number(numbers[&pass.range.id()]);
             writer.put(&[pass.first_index, pass.index_count]);
             write_look(writer, &pass.look, contents);
+            write_said(writer, &pass.look.said, map_contents);
         }
     }
 }
@@ -115,21 +116,18 @@ fn read_pass(reader: &mut Reader<'_>, ranges: &[Arc<RetainedRange>]) -> Option<S
     let [first_index, index_count] = reader.get()?;
     let end = (first_index as usize).checked_add(index_count as usize)?;
     let (look, contents) = read_look(reader)?;
-    let pass = Pass { range, first_index, index_count, look: Arc::new(look) };
-    (end <= pass.range.indices.len() && index_count > 0).then_some(StoredPass { pass, contents })
+    let (said, map_contents) = read_said(reader)?;
+    let look = Arc::new(Look { said, ..look });
+    let pass = Pass { range, first_index, index_count, look };
+    let is_sound = end <= pass.range.indices.len() && index_count > 0;
+    is_sound.then_some(StoredPass { pass, contents, map_contents })
 }
 
 /// Writes what rays read of a look. `contents` name its images.
 fn write_look(writer: &mut Writer, look: &Look, contents: &[u64; TEXTURE_UNITS]) {
     writer.put(&look.fixed.words);
     write_raster(writer, &look.fixed.raster);
-    for (binding, content) in look.bindings.iter().zip(contents) {
-        writer.put(&u8::from(binding.is_some()));
-        if let Some(binding) = binding {
-            writer.put(content);
-            write_sampler(writer, &binding.sampler);
-        }
-    }
+    write_bindings(writer, &look.bindings, contents);
     writer.put(&look.material);
     writer.put(&look.environment);
     writer.put(&look.texgen);
@@ -141,13 +139,7 @@ fn write_look(writer: &mut Writer, look: &Look, contents: &[u64; TEXTURE_UNITS])
 fn read_look(reader: &mut Reader<'_>) -> Option<(Look, [u64; TEXTURE_UNITS])> {
     let words: StateWords = reader.get()?;
     let raster = read_raster(reader)?;
-    let (mut bindings, mut contents) = ([None; TEXTURE_UNITS], [0; TEXTURE_UNITS]);
-    for unit in 0..TEXTURE_UNITS {
-        if reader.flag()? {
-            contents[unit] = reader.get()?;
-            bindings[unit] = Some(TextureBinding { image: ImageKey(0), sampler: read_sampler(reader)? });
-        }
-    }
+    let (bindings, contents) = read_bindings(reader)?;
     let look = Look {
         fixed: FixedState { words, raster },
         bindings,
@@ -156,8 +148,55 @@ fn read_look(reader: &mut Reader<'_>) -> Option<(Look, [u64; TEXTURE_UNITS])> {
         texgen: reader.get()?,
         texture_matrices: reader.get()?,
         current: reader.get()?,
+        said: HintMaterial::default(),
     };
     Some((look, contents))
+}
+
+fn write_bindings(writer: &mut Writer, bindings: &[Option<TextureBinding>], contents: &[u64]) {
+    for (binding, content) in bindings.iter().zip(contents) {
+        writer.put(&u8::from(binding.is_some()));
+        if let Some(binding) = binding {
+            writer.put(content);
+            write_sampler(writer, &binding.sampler);
+        }
+    }
+}
+
+/// Bindings of images that are not known yet, and what names them.
+fn read_bindings<const N: usize>(reader: &mut Reader<'_>) -> Option<([Option<TextureBinding>; N], [u64; N])> {
+    let (mut bindings, mut contents) = ([None; N], [0; N]);
+    for (binding, content) in bindings.iter_mut().zip(&mut contents) {
+        if reader.flag()? {
+            *content = reader.get()?;
+            *binding = Some(TextureBinding { image: ImageKey(0), sampler: read_sampler(reader)? });
+        }
+    }
+    Some((bindings, contents))
+}
+
+/// Writes what the program says of a material.
+fn write_said(writer: &mut Writer, said: &HintMaterial, contents: &[u64; MAPS]) {
+    writer.put(&[u8::from(said.roughness_metallic.is_some()), u8::from(said.emission.is_some())]);
+    writer.put(&said.roughness_metallic.unwrap_or_default());
+    writer.put(&said.emission.unwrap_or_default());
+    write_bindings(writer, &maps(said), contents);
+}
+
+fn read_said(reader: &mut Reader<'_>) -> Option<(HintMaterial, [u64; MAPS])> {
+    let (has_roughness, has_emission) = (reader.flag()?, reader.flag()?);
+    let (roughness_metallic, emission): ([f32; 2], [f32; 3]) = (reader.get()?, reader.get()?);
+    let ([normal_map, metallic_roughness_map, emission_map], contents) = read_bindings(reader)?;
+    let said = HintMaterial {
+        roughness_metallic: has_roughness.then_some(roughness_metallic),
+        emission: has_emission.then_some(emission),
+        normal_map,
+        metallic_roughness_map,
+        emission_map,
+    };
+    let is_sound = roughness_metallic.iter().all(|value| (0.0..=1.0).contains(value))
+        && emission.iter().all(|value| value.is_finite() && *value >= 0.0);
+    is_sound.then_some((said, contents))
 }
 
 /// Writes what matters to rays, and to what is visible, of the state of rasterization.

@@ -3,11 +3,12 @@
 use std::hash::Hash;
 use std::sync::Arc;
 
+use crate::tracking::snapped;
 use afterglow_gl::frame::{
-    Bindings, CurrentAttributes, Draw, Environment, FixedState, Format, Frame, ImageKey, Material, Slot,
-    TexGen, TextureMatrices, VertexLayout,
+    Bindings, CurrentAttributes, Draw, Environment, FixedState, Format, Frame, HintMaterial, ImageKey,
+    Material, Slot, TexGen, TextureBinding, TextureMatrices, VertexLayout,
 };
-use glam::Mat4;
+use glam::{DMat4, Mat4};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::Xxh3;
 
@@ -28,6 +29,8 @@ pub struct Look {
     pub texture_matrices: TextureMatrices,
     /// Attributes that vertices lack.
     pub current: CurrentAttributes,
+    /// What the program says of the material.
+    pub said: HintMaterial,
 }
 
 impl Look {
@@ -44,6 +47,7 @@ impl Look {
             texgen: entry(&frame.texgens, draw.texgen),
             texture_matrices: entry(&frame.texture_matrices, draw.texture_matrices),
             current: entry(&frame.current, draw.current),
+            said: said(frame, draw),
         })
     }
 
@@ -53,7 +57,8 @@ impl Look {
         let has_colors = draw.layout.format(Slot::Color as usize) != Format::Absent;
         let material = frame.materials.get(draw.material as usize);
         let current = frame.current.get(draw.current as usize);
-        frame.fixed.get(draw.fixed as usize) == Some(&self.fixed)
+        said(frame, draw) == self.said
+            && frame.fixed.get(draw.fixed as usize) == Some(&self.fixed)
             && frame.bindings.get(draw.bindings as usize) == Some(&self.bindings)
             && (!is_lit
                 || material.is_some_and(|m| bytemuck::bytes_of(m) == bytemuck::bytes_of(&self.material)))
@@ -62,12 +67,13 @@ impl Look {
 
     /// The images that it samples.
     pub fn images(&self) -> impl Iterator<Item = ImageKey> {
-        self.bindings.iter().flatten().map(|binding| binding.image)
+        let maps = maps(&self.said).into_iter();
+        self.bindings.iter().copied().chain(maps).flatten().map(|binding| binding.image)
     }
 
     fn hash(&self, hasher: &mut Xxh3) {
         // Written out by `Debug`, for its own hash leaves out what seldom differs.
-        hasher.update(format!("{:?}", self.fixed.raster).as_bytes());
+        hasher.update(format!("{:?}{:?}", self.fixed.raster, self.said).as_bytes());
         self.bindings.hash(hasher);
         hasher.update(bytemuck::bytes_of(&self.fixed.words));
         hasher.update(bytemuck::bytes_of(&self.material));
@@ -76,6 +82,23 @@ impl Look {
         hasher.update(bytemuck::bytes_of(&self.texture_matrices));
         hasher.update(bytemuck::bytes_of(&self.current));
     }
+}
+
+fn said(frame: &Frame, draw: &Draw) -> HintMaterial {
+    frame.hint(draw).map(|hint| hint.material).unwrap_or_default()
+}
+
+/// Maps of a material.
+pub const MAPS: usize = 3;
+
+/// The maps of a material.
+pub fn maps(material: &HintMaterial) -> [Option<TextureBinding>; MAPS] {
+    [material.normal_map, material.metallic_roughness_map, material.emission_map]
+}
+
+/// The same, to be changed.
+pub fn maps_mut(material: &mut HintMaterial) -> [&mut Option<TextureBinding>; MAPS] {
+    [&mut material.normal_map, &mut material.metallic_roughness_map, &mut material.emission_map]
 }
 
 /// What the triangles of a cell have in common.
@@ -122,6 +145,13 @@ impl Kinds {
         &self.all[number as usize]
     }
 
+    /// Takes over where places are now.
+    pub fn replace(&mut self, places: &Places) {
+        for kind in &mut self.all {
+            kind.model = places.model(kind.place);
+        }
+    }
+
     /// All kinds, by number.
     pub fn iter(&self) -> impl Iterator<Item = &Kind> {
         self.all.iter()
@@ -146,7 +176,7 @@ pub struct Places {
 impl Places {
     /// The number of a matrix.
     pub fn number(&mut self, model: &Mat4) -> u32 {
-        let bits = model.to_cols_array().map(|entry| (entry + 0.0).to_bits());
+        let bits = bits(model);
         if let Some(number) = self.by_bits.get(&bits) {
             return *number;
         }
@@ -161,9 +191,16 @@ impl Places {
 
     /// The number of a matrix that was looked up before, or of one that is the same but for rounding.
     pub fn find(&self, model: &Mat4) -> Option<u32> {
-        let bits = model.to_cols_array().map(|entry| (entry + 0.0).to_bits());
         let near = || self.models.iter().position(|known| is_near(known, model)).map(|number| number as u32);
-        self.by_bits.get(&bits).copied().or_else(near)
+        self.by_bits.get(&bits(model)).copied().or_else(near)
+    }
+
+    /// Moves all places, which keep their numbers.
+    pub fn transform(&mut self, by: DMat4) {
+        for model in &mut self.models {
+            *model = snapped(by * model.as_dmat4()).as_mat4();
+        }
+        self.by_bits = (0..).zip(&self.models).map(|(number, model)| (bits(model), number)).collect();
     }
 
     /// The matrix of a number that was given.
@@ -175,6 +212,11 @@ impl Places {
     pub fn len(&self) -> usize {
         self.by_bits.len()
     }
+}
+
+/// The bits of a matrix; -0 is +0.
+fn bits(model: &Mat4) -> [u32; 16] {
+    model.to_cols_array().map(|entry| (entry + 0.0).to_bits())
 }
 
 fn is_near(a: &Mat4, b: &Mat4) -> bool {

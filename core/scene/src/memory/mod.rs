@@ -6,7 +6,8 @@
 //! Where anything at a place was not drawn in a frame, all blocks of the place are handed over, so that the set hardly
 //! ever changes while the camera turns; draws whose triangles all lie in blocks, and look there as they are drawn, are
 //! told from others: rays need not meet them twice. `evidence` finds what is gone,
-//! with the help of a coarse depth buffer (`depth`). `disk` brings a world through to the next run.
+//! with the help of a coarse depth buffer (`depth`). `disk` brings a world through to the next run, in a
+//! `file`.
 
 mod blocks;
 mod bound;
@@ -17,6 +18,7 @@ mod disk;
 mod encode;
 mod entries;
 mod evidence;
+mod file;
 mod keys;
 mod look;
 mod notice;
@@ -29,13 +31,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use afterglow_gl::frame::{Frame, ImageKey, Operation};
-use glam::Mat4;
+use glam::{DMat4, Mat4};
 use hashbrown::{HashMap, HashSet};
 
 use crate::images::Images;
 use crate::types::{Class, Scene, Verdict};
 use blocks::{Block, Heap};
-use cells::Cell;
+use cells::{Cell, bounds};
 use depth::DepthBuffer;
 use disk::Disk;
 use entries::{Entries, NO_CELL};
@@ -53,8 +55,10 @@ pub const MISSING_FRAMES: u32 = 8;
 const TEST_INTERVAL: u32 = 4;
 /// Frames from one sweep of what is idle to the next, and frames after which it goes.
 const SWEEP_INTERVAL: u32 = 64;
+/// Frames from one look at the worlds of earlier runs to the next.
+const LOOK_INTERVAL: u32 = 16;
 /// Frames from one writing of the file to the next.
-const SAVE_INTERVAL: u32 = 7200;
+const SAVE_INTERVAL: u32 = 3600;
 /// Kinds and places after which all is forgotten: programs make them without end.
 const MOST_KINDS: usize = 1 << 13;
 const MOST_PLACES: usize = 1 << 14;
@@ -226,6 +230,8 @@ impl Memory {
         }
         if self.now.is_multiple_of(SWEEP_INTERVAL) {
             self.sweep();
+        }
+        if self.now.is_multiple_of(LOOK_INTERVAL) {
             self.take_up(images);
         }
         if self.now.is_multiple_of(SAVE_INTERVAL) {
@@ -234,6 +240,18 @@ impl Memory {
         self.join_small();
         self.bound(eye);
         self.hand_over(frame, scene);
+    }
+
+    /// The world has other coordinates from now on, `change` away from those before, and another number.
+    pub(crate) fn carry_over(&mut self, change: DMat4, epoch: u64) {
+        if change != DMat4::IDENTITY {
+            self.places.transform(change);
+            self.kinds.replace(&self.places);
+            for cell in self.cells.iter_mut().flatten() {
+                cell.bounds = bounds(&cell.passes, self.kinds.get(cell.kind).model);
+            }
+        }
+        self.epoch = epoch;
     }
 
     /// Forgets everything.

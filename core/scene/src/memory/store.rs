@@ -3,7 +3,7 @@
 //! A stored world is used once enough of it was drawn in this run, at the same places: then it is the same level in
 //! the same coordinates. Its cells come back one by one as their textures, known by content, are there.
 
-use afterglow_gl::frame::{ImageKey, TEXTURE_UNITS};
+use afterglow_gl::frame::{ImageKey, TEXTURE_UNITS, TextureBinding};
 use glam::Mat4;
 use hashbrown::{HashMap, HashSet};
 
@@ -12,7 +12,7 @@ use super::blocks::Heap;
 use super::cells::{Cell, Pass};
 use super::entries::Entry;
 use super::keys::{Positions, fold, triangle_key};
-use super::look::{Kind, Look};
+use super::look::{Kind, Look, MAPS, maps, maps_mut};
 use super::notice::{SIGHTINGS, whole_content};
 
 /// Triangles of a stored world that must have been drawn in this run before it is used, and their least share.
@@ -28,6 +28,8 @@ pub struct StoredPass {
     pub pass: Pass,
     /// Content of the image of each unit that has one.
     pub contents: [u64; TEXTURE_UNITS],
+    /// Likewise of each map that the program says of the material.
+    pub map_contents: [u64; MAPS],
 }
 
 /// A cell without numbers of this run.
@@ -57,7 +59,31 @@ pub struct StoredWorld {
 /// Images of this run by the hash of their content.
 pub type ImagesByContent = HashMap<u64, ImageKey>;
 
+impl StoredWorld {
+    /// Leaves the last cells out, so that the others have about so many bytes at most.
+    pub fn bound(&mut self, most: u64) {
+        let mut bytes = 0;
+        let mut ranges = HashSet::new();
+        let mut fits = |cell: &StoredCell| {
+            for StoredPass { pass, .. } in &cell.passes {
+                let is_new = ranges.insert(pass.range.id());
+                bytes += (size_of::<StoredPass>() + size_of::<Look>()) as u64
+                    + if is_new { pass.bytes() } else { 0 };
+            }
+            bytes += cell.sides.len() as u64;
+            bytes <= most
+        };
+        let kept = self.cells.iter().take_while(|cell| fits(cell)).count();
+        self.cells.truncate(kept);
+    }
+}
+
 impl StoredCell {
+    /// How many triangles it has.
+    pub fn triangles(&self) -> usize {
+        self.passes.first().map_or(0, |pass| pass.pass.index_count as usize / 3)
+    }
+
     /// The keys of its entries at a place; none of what has no area.
     fn keys(&self, place: u32) -> Vec<Option<u64>> {
         let pass = &self.passes[0].pass;
@@ -78,10 +104,29 @@ impl StoredCell {
                     binding.image = *images.get(content)?;
                 }
             }
+            for (map, content) in maps_mut(&mut look.said).into_iter().zip(&stored.map_contents) {
+                if let Some(map) = map {
+                    map.image = *images.get(content)?;
+                }
+            }
             Some(Pass { look: look.into(), ..stored.pass.clone() })
         };
         self.passes.iter().map(resolve).collect()
     }
+}
+
+/// The content of the image of each binding; 0 where there is none.
+fn contents_of<const N: usize>(
+    bindings: &[Option<TextureBinding>; N],
+    content: impl Fn(ImageKey) -> Option<u64>,
+) -> Option<[u64; N]> {
+    let mut contents = [0; N];
+    for (found, binding) in contents.iter_mut().zip(bindings) {
+        if let Some(binding) = binding {
+            *found = content(binding.image)?;
+        }
+    }
+    Some(contents)
 }
 
 impl Memory {
@@ -93,13 +138,9 @@ impl Memory {
                 .passes
                 .iter()
                 .map(|pass| {
-                    let mut contents = [0; TEXTURE_UNITS];
-                    for (found, binding) in contents.iter_mut().zip(&pass.look.bindings) {
-                        if let Some(binding) = binding {
-                            *found = content(binding.image)?;
-                        }
-                    }
-                    Some(StoredPass { pass: pass.clone(), contents })
+                    let contents = contents_of(&pass.look.bindings, &content)?;
+                    let map_contents = contents_of(&maps(&pass.look.said), &content)?;
+                    Some(StoredPass { pass: pass.clone(), contents, map_contents })
                 })
                 .collect();
             let sides = cell.entries.iter().map(|entry| self.entries.get(*entry).from_front).collect();

@@ -5,6 +5,7 @@ mod classes;
 mod hints;
 mod layers;
 mod lights;
+mod memory;
 mod motion;
 mod profile;
 mod robustness;

@@ -5,12 +5,13 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use afterglow_scene::Relighting;
+use afterglow_truth::Recording;
 use afterglow_truth::measure::{
-    Report, baked, lights_profile, measure, measure_played, play_as, play_file, write_baked, write_table, write_wrong,
+    Report, baked, lights_profile, measure, measure_played, play_as, play_file, write_baked, write_table,
+    write_wrong,
 };
 use afterglow_truth::oracle::{self, ORACLES, Oracle};
 use afterglow_truth::steady::{watch, write_steadiness};
-use afterglow_truth::Recording;
 use afterglow_truth::styles::{self, Entry, STYLES};
 use anyhow::Context;
 use clap::Parser;

@@ -9,7 +9,8 @@ mod lists;
 use afterglow_gl::frame::{CLIP_PLANES, GlobalWords, LIGHTS, SLOTS, STATE_WORDS, TEXTURE_UNITS, UnitWords};
 use afterglow_layout::StructDescription;
 use afterglow_records::{
-    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_MASK, BAKE_NONE, BAKE_SHIFT, BlendWord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, NO_MAP, WHITE_ALBEDO,
+    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_MASK, BAKE_NONE, BAKE_SHIFT, BlendWord, MASK_MOVING,
+    MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, NO_MAP, WHITE_ALBEDO,
 };
 
 use self::constants::{enumerations, record_enumerations, surface_enumerations};

@@ -5,7 +5,8 @@ use std::ops::Range;
 use afterglow_gl::frame::{Draw, Frame, HintMaterial, Topology};
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
 use afterglow_records::{
-    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_NONE, BAKE_SHIFT, SurfaceDraw, SurfaceKind, WHITE_ALBEDO,
+    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_NONE, BAKE_SHIFT, SurfaceDraw, SurfaceKind,
+    WHITE_ALBEDO,
 };
 use afterglow_scene::{BakedInto, Class, Relit, Verdict};
 use glam::{DVec3, Mat4};
@@ -129,7 +130,9 @@ impl<'a> Gatherer<'a, '_> {
                 DrawMark::Kept(0)
             }
             Mark::Solid => DrawMark::Written(0),
-            Mark::Traced | Mark::Covered | Mark::Layer | Mark::Colorless | Mark::Unseen(_) => DrawMark::Kept(0),
+            Mark::Traced | Mark::Covered | Mark::Layer | Mark::Colorless | Mark::Unseen(_) => {
+                DrawMark::Kept(0)
+            }
         })
     }
 

@@ -2,8 +2,8 @@
 
 use afterglow_gl::frame::{Compare, Draw, FixedState, Frame, StateWords};
 use afterglow_records::{
-    BAKE_NONE, BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, NO_MAP, SurfaceDraw,
-    SurfaceKind,
+    BAKE_NONE, BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, NO_MAP,
+    SurfaceDraw, SurfaceKind,
 };
 use afterglow_scene::{Class, LightOrigin, Scene, Verdict};
 use hashbrown::HashMap;

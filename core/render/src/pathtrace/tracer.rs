@@ -88,8 +88,8 @@ impl Tracer {
     }
 
     fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
-        let mut recovery =
-            Recovery::with_profile(options.profile.clone()).with_relighting(options.relighting, options.replacing);
+        let mut recovery = Recovery::with_profile(options.profile.clone())
+            .with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);
         if let Some(cache) = &options.cache {
             recovery.set_cache(cache);

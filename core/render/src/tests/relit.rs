@@ -43,7 +43,8 @@ fn texture(gl: &mut Context, name: u32, side: usize, color: impl Fn(usize, usize
     gl.bind_texture(GL_TEXTURE_2D, name);
     gl.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, Params::Ints(&[GL_LINEAR as i32]));
     let texels: Vec<u8> = (0..side * side).flat_map(|i| color(i % side, i / side)).collect();
-    let definition = ImageDefinition { level: 0, internal_format: GL_RGB, size: [side as i32, side as i32, 1], border: 0 };
+    let definition =
+        ImageDefinition { level: 0, internal_format: GL_RGB, size: [side as i32, side as i32, 1], border: 0 };
     gl.tex_image((GL_TEXTURE_2D, 2), definition, (GL_RGB, GL_UNSIGNED_BYTE), Some(&texels));
 }
 

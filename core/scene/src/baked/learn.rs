@@ -99,10 +99,8 @@ fn layers<'a>(frame: &'a Frame, scene: &'a Scene) -> Layers<'a> {
 
 fn over(frame: &Frame, draw: &Draw) -> Option<Over> {
     use BlendFactor as F;
-    let glows = matches!(
-        frame.fixed.get(draw.fixed as usize)?.raster.blend?.rgb,
-        (F::One | F::SourceAlpha, F::One)
-    );
+    let glows =
+        matches!(frame.fixed.get(draw.fixed as usize)?.raster.blend?.rgb, (F::One | F::SourceAlpha, F::One));
     multiplier(frame, draw).map(Over::Multiplies).or(glows.then_some(Over::Glows))
 }
 

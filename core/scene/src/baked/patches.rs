@@ -95,9 +95,8 @@ impl World {
                 *counts.entry(map.image).or_default() += 1;
             }
         }
-        let is_mostly = |(key, count): &(ImageKey, u32)| {
-            self.uses.get(key).is_some_and(|of| 2 * count > of.triangles)
-        };
+        let is_mostly =
+            |(key, count): &(ImageKey, u32)| self.uses.get(key).is_some_and(|of| 2 * count > of.triangles);
         counts.into_iter().filter(is_mostly).map(|(key, _)| key).collect()
     }
 

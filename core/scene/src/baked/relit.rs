@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use afterglow_gl::frame::{BlendFactor, CombineFunction, Draw, EnvMode, Format, Frame, ImageKey, Slot, UnitWords};
+use afterglow_gl::frame::{
+    BlendFactor, CombineFunction, Draw, EnvMode, Format, Frame, ImageKey, Slot, UnitWords,
+};
 use glam::Vec3;
 use hashbrown::HashSet;
 

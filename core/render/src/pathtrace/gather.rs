@@ -86,7 +86,8 @@ pub(crate) fn gather<'a>(
         let mark = tracing.arrangement.marks.get(operation).copied().flatten();
         let mark = match (verdict, mark) {
             (Some(verdict), Some(mark)) => {
-                let place = Place { number, operation, draw };
+                let bake = gatherer.bake(draw, verdict.class).unwrap_or(BAKE_NONE);
+                let place = Place { number, operation, draw, bake };
                 gatherer.mark(&place, verdict, mark)?
             }
             _ => DrawMark::Kept(0),
@@ -108,11 +109,13 @@ struct Gatherer<'a, 'i> {
     surfaces: Surfaces<'a>,
 }
 
-/// A draw: its number among the draws, and its operation.
+/// A draw: its number among the draws, its operation, and what of its colour is baked light that traced light takes the
+/// place of (a `BAKE_` constant).
 struct Place<'a> {
     number: usize,
     operation: usize,
     draw: &'a Draw,
+    bake: u32,
 }
 
 impl<'a> Gatherer<'a, '_> {
@@ -147,7 +150,7 @@ impl<'a> Gatherer<'a, '_> {
         self.surfaces.kinds.push((place.operation, kind));
         // Among baked surfaces the colours of what moves are a guess at its light.
         let is_white = kind == SurfaceKind::BakedMover;
-        let bake = self.bake(place, verdict).unwrap_or(BAKE_NONE) << BAKE_SHIFT;
+        let bake = place.bake << BAKE_SHIFT;
         Ok(DrawMark::Written((surface + 1) | bake | if is_white { WHITE_ALBEDO } else { 0 }))
     }
 
@@ -166,7 +169,7 @@ impl<'a> Gatherer<'a, '_> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let hint = self.input.frame.hint(place.draw);
         let has_material = hint.is_some_and(|hint| hint.material != HintMaterial::default());
-        let is_baked = verdict.baked || self.bake(place, verdict).is_some();
+        let is_baked = verdict.baked || place.bake != BAKE_NONE;
         let kind = self.lighting.kind(&Verdict { baked: is_baked, ..*verdict }, words, has_material);
         let (mask, meets) = masks(verdict.class, kind);
         let surface = self.record(place, verdict, kind, meets)?;
@@ -191,15 +194,15 @@ impl<'a> Gatherer<'a, '_> {
             let layer = self.record(place, verdict, SurfaceKind::None, 0)?;
             self.layers.link(&mut self.surfaces.records, layer, &triangles);
         }
-        Ok(DrawMark::Kept(self.bake(place, verdict).unwrap_or(BAKE_NONE) << BAKE_SHIFT))
+        Ok(DrawMark::Kept(place.bake << BAKE_SHIFT))
     }
 
-    /// What of a draw's colour is baked light that traced light takes the place of: a `BAKE_` constant.
-    fn bake(&self, place: &Place<'_>, verdict: &Verdict) -> Option<u32> {
-        let is_layer = verdict.class == Class::Layer;
-        let of_world = is_layer || verdict.class == Class::Static;
+    /// Where a draw's baked light is, if traced light takes its place.
+    fn bake(&self, draw: &Draw, class: Class) -> Option<u32> {
+        let is_layer = class == Class::Layer;
+        let of_world = is_layer || class == Class::Static;
         let bakes = &self.relit.filter(|_| of_world)?.bakes;
-        bakes.of(self.input.frame, place.draw, is_layer).map(|baked| match baked {
+        bakes.of(self.input.frame, draw, is_layer).map(|baked| match baked {
             BakedInto::Unit(unit) => u32::from(unit) + 1,
             BakedInto::Colors => BAKE_COLORS,
             BakedInto::Layer { is_doubled: false } => BAKE_LAYER,
@@ -233,8 +236,7 @@ impl<'a> Gatherer<'a, '_> {
         let number = self.surfaces.records.len() as u32;
         let rows = relative(&verdict.model, self.origin);
         let record = surface_draw(input.frame, draw, located, rows, kind, ray_mask, number);
-        let bake = self.bake(place, verdict).unwrap_or(BAKE_NONE);
-        let record = material.write(SurfaceDraw { bake, ..record });
+        let record = material.write(SurfaceDraw { bake: place.bake, ..record });
         self.surfaces.records.push(record);
         Ok(number)
     }

@@ -8,6 +8,7 @@ use glam::{DMat3, DMat4, Vec3};
 use crate::consensus::{self, Prior, TOLERANCE, Witness};
 use crate::draws::{DrawFacts, TransformFacts};
 use crate::foresight::Foresight;
+use crate::formers::SPRITE;
 use crate::matrix;
 use crate::objects::{Motion, Object, Objects, Step};
 use crate::pairing::{NEAR, Pairing, Sight};
@@ -69,9 +70,9 @@ pub struct Tracker {
     /// From what most is drawn under to the view, where that has been something else, and for how many frames.
     offset: Option<(DMat4, u32)>,
     /// Objects of this frame and of the one before that have a matrix of their own which does not turn them: those that
-    /// stand still, and those that do not.
-    placed: (u32, u32),
-    placed_before: (u32, u32),
+    /// stand still, and those that do not. Sprites are counted apart, second.
+    placed: [(u32, u32); 2],
+    placed_before: [(u32, u32); 2],
     frame: u32,
     /// Counts worlds.
     pub epoch: u64,
@@ -283,13 +284,15 @@ impl Tracker {
         };
         let (previous, motion) = (object.before, object.motion(frame));
         let is_turned = !DMat3::from_mat4(model).abs_diff_eq(DMat3::IDENTITY, 1e-5);
+        // How sparks fly says nothing of how the world is sent.
+        let is_sprite = usize::from(claim.piece.content.triangles <= SPRITE);
         match motion {
             _ if is_turned || again => {}
-            Motion::Still => self.placed.0 += 1,
+            Motion::Still => self.placed[is_sprite].0 += 1,
             Motion::Unknown => {}
-            _ => self.placed.1 += 1,
+            _ => self.placed[is_sprite].1 += 1,
         }
-        let (still, moving) = self.placed_before;
+        let (still, moving) = self.placed_before[is_sprite];
         let is_placed = !is_turned && still >= PLACED && still >= PLACED * moving / 2;
         Some(Track { object: object.id, model, previous, motion, is_placed, animated })
     }

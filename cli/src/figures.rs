@@ -33,6 +33,8 @@ pub struct Relight {
     residual: f32,
     /// Share of the lit surfaces' area with an error below a quarter.
     explained: f32,
+    /// Share of the bake's variance over its surfaces that they explain.
+    variance: f32,
     triangles: usize,
     patches: usize,
     emitters: usize,
@@ -52,6 +54,7 @@ impl From<&SceneRelight> for Relight {
         Relight {
             residual: found.residual,
             explained: found.explained,
+            variance: found.variance,
             triangles: found.triangles,
             patches: found.patches,
             emitters: found.emitters,
@@ -69,11 +72,12 @@ impl fmt::Display for Relight {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(
             f,
-            "baked light: {} lights recovered from {} patches, residual {:.3}, {:.0} % explained, {}",
+            "baked light: {} lights recovered from {} patches, residual {:.3}, {:.0} % of the area and {:.0} % of the variance explained, {}",
             self.lights,
             self.patches,
             self.residual,
             100.0 * self.explained,
+            100.0 * self.variance,
             match (self.replaces, self.used) {
                 (true, _) => "in the place of the bake",
                 (false, true) => "beside the bake",

@@ -22,7 +22,6 @@ use super::Arguments;
 use crate::failure::Failure;
 use crate::options::Size;
 use crate::output;
-use crate::replay::session::keep_state_only;
 use legend::Legend;
 
 /// What a picture is coloured by.
@@ -84,7 +83,7 @@ impl<'a> Painter<'a> {
 
     /// Executes what of a frame later ones need.
     pub fn skip(&mut self, mut frame: Frame) {
-        keep_state_only(&mut frame);
+        frame.keep_state();
         self.scale(&frame).frame(&mut frame);
         self.renderer.submit(frame, End::Continued);
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use afterglow_gl::backend::{Backend, End, Reply, Request};
-use afterglow_gl::frame::{Frame, Operation};
+use afterglow_gl::frame::Frame;
 use afterglow_gpu::{DeviceInfo, Gpu};
 use afterglow_player::BackendFactory;
 use afterglow_render::{self as render, RenderOptions, Renderer, Scale};
@@ -66,13 +66,10 @@ impl Shared {
 impl Backend for Shared {
     fn submit(&mut self, mut frame: Frame, end: End) {
         let is_lit = self.lit.load(Ordering::Relaxed);
-        if !is_lit {
-            keep_state_only(&mut frame);
-        }
         self.scale(&frame).frame(&mut frame);
         match is_lit {
             true => self.renderer.lock().submit(frame, end),
-            false => self.renderer.lock().submit_unlit(frame, end),
+            false => self.renderer.lock().submit_unseen(frame, end),
         }
     }
 
@@ -86,15 +83,6 @@ impl Backend for Shared {
     fn recycle(&mut self) -> Frame {
         self.renderer.lock().recycle()
     }
-}
-
-/// Drops what only draws: nobody will see it. A frame whose pixels become texels is drawn all the same.
-pub fn keep_state_only(frame: &mut Frame) {
-    let reads = |operation: &Operation| matches!(operation, Operation::CopyToImage(_));
-    if frame.operations.iter().any(reads) {
-        return;
-    }
-    frame.keep_images();
 }
 
 impl Session {

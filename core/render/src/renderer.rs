@@ -239,6 +239,23 @@ impl Renderer {
         self.end(frame, end);
     }
 
+    /// The same for frames before the first that is seen. Later ones are understood by what whole frames show of the world;
+    /// draws are left out after that, unless their pixels become texels.
+    pub fn submit_unseen(&mut self, mut frame: Frame, end: End) {
+        if let Some(tracer) = &mut self.tracer {
+            let is_whole = matches!(tracer.parts, Parts::None) && !tracer.has_begun_unseen;
+            match is_whole && end == End::Swap {
+                true => drop(tracer.recovery.understand(&mut frame)),
+                false => tracer.recovery.observe(&frame),
+            }
+            tracer.has_begun_unseen = end == End::Continued;
+            tracer.parts = Parts::None;
+        }
+        frame.keep_state();
+        self.unless_failed(|renderer| renderer.execute(&frame));
+        self.end(frame, end);
+    }
+
     fn end(&mut self, frame: Frame, end: End) {
         if end == End::Swap {
             self.swaps += 1;

@@ -210,6 +210,8 @@ pub struct Relight {
     pub residual: f32,
     /// Share of the lit surfaces' area with an error below a quarter.
     pub explained: f32,
+    /// Share of the variance of the bake over its surfaces that they explain.
+    pub variance: f32,
     /// Triangles of the world that was searched.
     pub triangles: usize,
     /// Patches of its lit surfaces.

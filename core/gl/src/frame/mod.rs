@@ -313,6 +313,14 @@ impl Frame {
         });
     }
 
+    /// Leaves out what only draws: nobody will see it. A frame whose pixels become texels is drawn all the same.
+    pub fn keep_state(&mut self) {
+        let reads = |operation: &Operation| matches!(operation, Operation::CopyToImage(_));
+        if !self.operations.iter().any(reads) {
+            self.keep_images();
+        }
+    }
+
     /// The draws with their places among the operations.
     pub fn draws(&self) -> impl Iterator<Item = (usize, &Draw)> {
         self.operations.iter().enumerate().filter_map(|(i, op)| match op {

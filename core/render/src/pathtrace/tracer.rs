@@ -53,6 +53,8 @@ pub(crate) struct Tracer {
     pub(crate) has_exposure: bool,
     /// What was handed over of the frame that is going on.
     pub(crate) parts: Parts,
+    /// A part of a frame that nobody will see was submitted, and not its end.
+    pub(crate) has_begun_unseen: bool,
     /// The window before that frame.
     pub(crate) before: Option<Target>,
 }
@@ -104,6 +106,7 @@ impl Tracer {
             history: Vec::new(),
             has_exposure: false,
             parts: Parts::None,
+            has_begun_unseen: false,
             before: None,
         }
     }

@@ -22,9 +22,9 @@ const MOST_FOLDER_BYTES: u64 = 64 << 20;
 /// Lights are used from this share of explained area on, up to this residual.
 const LEAST_EXPLAINED: f32 = 0.4;
 const MOST_RESIDUAL: f32 = 0.4;
-/// From this share on, up to this residual, they take the place of the bake.
+/// They take the place of the bake from these shares on: of explained area, and of the variance.
 const LEAST_TO_REPLACE: f32 = 0.8;
-const MOST_TO_REPLACE: f32 = 0.2;
+const LEAST_VARIANCE: f32 = 0.95;
 
 /// What sources are searched in.
 #[derive(Debug)]
@@ -212,12 +212,26 @@ fn is_good(residual: f32, explained: f32) -> bool {
     explained >= LEAST_EXPLAINED && residual <= MOST_RESIDUAL
 }
 
+/// Share of the bake's variance over its patches that sources explain (R^2). Light that is nearly even has a small residual
+/// whatever is found, and what is seen of it is how it varies.
+fn explained_variance(residual: f32, patches: &[Patch]) -> f32 {
+    let area: f32 = patches.iter().map(|patch| patch.area).sum();
+    let mean = patches.iter().map(|patch| patch.area * patch.irradiance).sum::<Vec3>() / area;
+    let sum = |of: Vec3| {
+        patches.iter().map(|patch| patch.area * (patch.irradiance - of).length_squared()).sum::<f32>()
+    };
+    let variance = 1.0 - residual * residual * sum(Vec3::ZERO) / sum(mean);
+    if variance.is_finite() { variance.max(0.0) } else { 0.0 }
+}
+
 fn solution(problem: &Problem, found: &Found) -> Solution {
     let scale = sources::scale(&problem.patches);
     let lights = sources::lights(&found.lights, &problem.emitters, scale);
+    let variance = explained_variance(found.residual, &problem.patches);
     let report = Relight {
         residual: found.residual,
         explained: found.explained,
+        variance,
         triangles: problem.triangles.len(),
         patches: problem.patches.len(),
         emitters: problem.emitters.len(),
@@ -226,7 +240,7 @@ fn solution(problem: &Problem, found: &Found) -> Solution {
         rays: found.rays,
         scale,
         is_used: is_good(found.residual, found.explained),
-        replaces: found.explained >= LEAST_TO_REPLACE && found.residual <= MOST_TO_REPLACE,
+        replaces: found.explained >= LEAST_TO_REPLACE && variance >= LEAST_VARIANCE,
     };
     let replacement = Replacement {
         relit: Relit { bakes: problem.bakes.clone(), scale, bounce: found.bounce },
@@ -234,4 +248,26 @@ fn solution(problem: &Problem, found: &Found) -> Solution {
         sky: scale * sources::sky(found),
     };
     Solution { lights, ambient: scale * sources::ambient(found, &problem.patches), replacement, report }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_that_is_even_has_no_variance_to_explain() {
+        let patch = |x: f32, light: f32| Patch {
+            position: Vec3::X * x,
+            normal: Vec3::Y,
+            area: 1.0,
+            irradiance: Vec3::splat(light),
+            albedo: Vec3::ONE,
+        };
+        let patches = |lights: [f32; 3]| [0, 1, 2].map(|i| patch(i as f32, lights[i]));
+        // The same error says much of light that varies, and little of light that is nearly even.
+        assert!(explained_variance(0.1, &patches([0.0, 1.0, 5.0])) > 0.98);
+        assert!(explained_variance(0.1, &patches([0.9, 1.0, 1.1])) < 0.01);
+        assert_eq!(explained_variance(0.1, &patches([1.0; 3])), 0.0);
+        assert_eq!(explained_variance(0.1, &[]), 0.0);
+    }
 }

@@ -145,8 +145,14 @@ pub fn write_baked(out: &mut impl Write, style: &str, score: Option<&BakedScore>
     };
     writeln!(
         out,
-        "{style:<18} residual {:.3}, explained {:.3}, {} lights of {} patches, used {}",
-        relight.residual, relight.explained, relight.lights, relight.patches, relight.is_used
+        "{style:<18} residual {:.3}, explained {:.3}, variance {:.3}, {} lights of {} patches, used {}, replaces {}",
+        relight.residual,
+        relight.explained,
+        relight.variance,
+        relight.lights,
+        relight.patches,
+        relight.is_used,
+        relight.replaces
     )?;
     for light in lights {
         let error = light.found.distance(light.told) / light.told.length().max(f32::MIN_POSITIVE);

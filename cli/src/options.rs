@@ -6,7 +6,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use afterglow_gpu::GpuOptions;
-use afterglow_scene::{Profile, ProfileChoice, ProfileError, ProgramCache};
+use afterglow_scene::{Profile, ProfileChoice, ProfileError, ProgramCache, Replacing};
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
 
@@ -27,6 +27,37 @@ impl Mode {
         match self {
             Mode::Raster => "raster",
             Mode::Pathtrace => "pathtrace",
+        }
+    }
+}
+
+/// What becomes of baked light.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Baked {
+    /// Traced light takes its place where its sources explain it well
+    Auto,
+    /// It stays, darkened by the shadows of what moves
+    Keep,
+    /// Traced light takes its place however well it is explained
+    Replace,
+}
+
+impl Baked {
+    /// As recovery takes it.
+    pub fn replacing(self) -> Replacing {
+        match self {
+            Baked::Auto => Replacing::WhereGood,
+            Baked::Keep => Replacing::Never,
+            Baked::Replace => Replacing::Always,
+        }
+    }
+
+    /// As AFTERGLOW_BAKED has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Baked::Auto => "auto",
+            Baked::Keep => "keep",
+            Baked::Replace => "replace",
         }
     }
 }

@@ -8,13 +8,13 @@ use std::time::Instant;
 
 use afterglow_player::{Player, TraceSummary};
 use afterglow_render::{Displaced, Paint, PathtraceOptions};
-use afterglow_scene::{Relighting, Replacing};
+use afterglow_scene::Relighting;
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::{self, Failure};
-use crate::options::{DeviceArguments, Frames, KeepArguments, Mode, ProfileArguments, Size};
+use crate::options::{Baked, DeviceArguments, Frames, KeepArguments, Mode, ProfileArguments, Size};
 use crate::output;
 use report::Report;
 use session::Session;
@@ -123,37 +123,6 @@ impl Arguments {
     /// Whether anybody will read how long the passes took.
     fn wants_timing(&self) -> bool {
         self.stats || self.json.is_some()
-    }
-}
-
-/// What becomes of baked light.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Baked {
-    /// Traced light takes its place where its sources explain it well
-    Auto,
-    /// It stays, darkened by the shadows of what moves
-    Keep,
-    /// Traced light takes its place however well it is explained
-    Replace,
-}
-
-impl Baked {
-    /// As recovery takes it.
-    fn replacing(self) -> Replacing {
-        match self {
-            Baked::Auto => Replacing::WhereGood,
-            Baked::Keep => Replacing::Never,
-            Baked::Replace => Replacing::Always,
-        }
-    }
-
-    /// As AFTERGLOW_BAKED has it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Baked::Auto => "auto",
-            Baked::Keep => "keep",
-            Baked::Replace => "replace",
-        }
     }
 }
 

@@ -12,8 +12,7 @@ use clap::Args;
 
 use crate::failure::Failure;
 use crate::libdir;
-use crate::options::{DeviceArguments, KeepArguments, Mode, ProfileArguments};
-use crate::replay::Baked;
+use crate::options::{Baked, DeviceArguments, KeepArguments, Mode, ProfileArguments};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]

@@ -8,6 +8,7 @@ mod growth;
 mod traces;
 mod worlds;
 
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
@@ -46,6 +47,26 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let growth = growth::measure(arguments.most, prints)?;
     let report = Report { traces, growth };
     arguments.json.as_deref().map_or(Ok(()), |path| output::write_json(path, &report))
+}
+
+/// Adds a row to a table, and prints it, after the table's head if it is the first.
+fn add<T>(
+    rows: &mut Vec<T>,
+    row: T,
+    prints: bool,
+    head: fn(&mut dyn Write) -> io::Result<()>,
+    line: fn(&T, &mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    if prints {
+        output::print(|out| {
+            if rows.is_empty() {
+                head(out)?;
+            }
+            line(&row, out)
+        })?;
+    }
+    rows.push(row);
+    Ok(())
 }
 
 /// The value below which a share of sorted values lie; 0 without any.

@@ -42,6 +42,7 @@ mod types;
 mod views;
 mod world;
 
+pub use color::linear_from_srgb;
 pub use images::ImageFacts;
 pub use phase::Phase;
 pub use profile::{Profile, ProfileChoice, ProfileError, shipped as shipped_profiles};

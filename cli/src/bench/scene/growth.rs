@@ -6,12 +6,11 @@ use std::time::Duration;
 use afterglow_scene::{Phase, Recovery};
 use serde::Serialize;
 
-use super::quantile;
 use super::traces::copying;
 use super::worlds::{Sent, World};
+use super::{add, quantile};
 use crate::failure::Failure;
 use crate::inspect::play::{self, Phases};
-use crate::output;
 
 /// Triangles of the smallest world.
 const LEAST: u32 = 1000;
@@ -46,15 +45,7 @@ pub fn measure(most: u32, prints: bool) -> Result<Vec<Row>, Failure> {
         for triangles in sizes.take_while(|size| *size <= most) {
             let before = rows.last().filter(|row| row.sent == sent.name()).map(|row| row.ns_a_triangle);
             let row = row(sent, triangles, before);
-            if prints {
-                output::print(|out| {
-                    if rows.is_empty() {
-                        write_head(out)?;
-                    }
-                    row.write(out)
-                })?;
-            }
-            rows.push(row);
+            add(&mut rows, row, prints, write_head, Row::write)?;
         }
     }
     Ok(rows)
@@ -96,7 +87,7 @@ fn row(sent: Sent, triangles: u32, before: Option<f64>) -> Row {
     }
 }
 
-fn write_head(out: &mut impl Write) -> std::io::Result<()> {
+fn write_head(out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(
         out,
         "growth: ns a triangle, of those of a world a tenth of the size; copies: in units of copying the vertices\n\
@@ -106,7 +97,7 @@ fn write_head(out: &mut impl Write) -> std::io::Result<()> {
 }
 
 impl Row {
-    fn write(&self, out: &mut impl Write) -> std::io::Result<()> {
+    fn write(&self, out: &mut dyn Write) -> std::io::Result<()> {
         let factor = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.2}"));
         writeln!(
             out,

@@ -10,10 +10,9 @@ use afterglow_gl::frame::Frame;
 use afterglow_scene::{Phase, Recovery};
 use serde::Serialize;
 
-use super::quantile;
+use super::{add, quantile};
 use crate::failure::Failure;
 use crate::inspect::play::{self, Event, Judged, Phases, Visitor};
-use crate::output;
 
 /// A trace's figures. The second half of its frames counts as steady: what it loads is loaded then.
 #[derive(Debug, Serialize)]
@@ -42,15 +41,7 @@ pub fn measure(paths: &[PathBuf], runs: u32, prints: bool) -> Result<Vec<Row>, F
     let mut rows = Vec::new();
     for path in files(paths)? {
         let row = row(&path, runs)?;
-        if prints {
-            output::print(|out| {
-                if rows.is_empty() {
-                    write_head(out)?;
-                }
-                row.write(out)
-            })?;
-        }
-        rows.push(row);
+        add(&mut rows, row, prints, write_head, Row::write)?;
     }
     Ok(rows)
 }
@@ -169,7 +160,7 @@ impl Row {
         }
     }
 
-    fn write(&self, out: &mut impl Write) -> std::io::Result<()> {
+    fn write(&self, out: &mut dyn Write) -> std::io::Result<()> {
         write!(
             out,
             "{:<18} {:>6} {:>6.0} {:>8.0} {:>9.0} {:>9.0} {:>9.1} {:>7.0} {:>5.0} % {:>7.1} ",
@@ -189,7 +180,7 @@ impl Row {
     }
 }
 
-fn write_head(out: &mut impl Write) -> std::io::Result<()> {
+fn write_head(out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(
         out,
         "share: of the time on the processor, playing the calls included; copies: in units of copying the vertices; \

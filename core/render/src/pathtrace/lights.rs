@@ -2,7 +2,7 @@
 
 use afterglow_gl::frame::{Draw, Frame, LIGHTS};
 use afterglow_records::LightSource;
-use afterglow_scene::{LightOrigin, LightShape, SceneLight};
+use afterglow_scene::{LightOrigin, LightShape, SceneLight, linear_from_srgb};
 use glam::{DVec3, Vec3};
 
 /// A scene's lights relative to `origin`, one of them displaced where `moved` says so.
@@ -52,13 +52,8 @@ impl Highlights {
             LightOrigin::Program(_) => return light.color.to_array(),
             LightOrigin::Profile | LightOrigin::Recovered | LightOrigin::Fallback => None,
         };
-        color.unwrap_or_default().map(|c| linear_from_srgb(c.clamp(0.0, 1.0)))
+        linear_from_srgb(Vec3::from(color.unwrap_or_default()).clamp(Vec3::ZERO, Vec3::ONE)).to_array()
     }
-}
-
-/// IEC 61966-2-1.
-fn linear_from_srgb(value: f32) -> f32 {
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 
 fn light_source(light: &SceneLight, origin: DVec3, displacement: Vec3) -> LightSource {

@@ -6,7 +6,7 @@ use afterglow_gl::texture::ImageDefinition;
 use afterglow_gl::{Context, Params};
 use afterglow_scene::{LightOrigin, TriangleCounts};
 
-use super::pathtrace::{OPEN, SHADOW, SIZE, Stage, slab};
+use super::pathtrace::{OPEN, SHADOW, SIZE, Stage, look_down, slab};
 use crate::Mode;
 use crate::testing::assert_valid;
 
@@ -29,13 +29,7 @@ fn draw(stage: &mut Stage, said: &Said) {
     let gl = &mut stage.gl;
     gl.clear_color(0.0, 0.0, 0.0, 1.0);
     gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl.matrix_mode(GL_PROJECTION);
-    gl.load_identity();
-    gl.frustum(-0.8, 0.8, -0.6, 0.6, 1.0, 50.0);
-    gl.matrix_mode(GL_MODELVIEW);
-    gl.load_identity();
-    gl.translate(0.0, -0.5, -6.0);
-    gl.rotate(35.0, 1.0, 0.0, 0.0);
+    look_down(gl);
     gl.enable(GL_DEPTH_TEST);
     gl.color([0.5, 0.5, 0.5, 1.0]);
     say(gl, said.frame);

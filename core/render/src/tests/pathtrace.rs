@@ -52,13 +52,7 @@ impl Stage {
         let gl = &mut self.gl;
         gl.clear_color(0.1, 0.2, 0.3, 1.0);
         gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        gl.matrix_mode(GL_PROJECTION);
-        gl.load_identity();
-        gl.frustum(-0.8, 0.8, -0.6, 0.6, 1.0, 50.0);
-        gl.matrix_mode(GL_MODELVIEW);
-        gl.load_identity();
-        gl.translate(0.0, -0.5, -6.0);
-        gl.rotate(35.0, 1.0, 0.0, 0.0);
+        look_down(gl);
         for capability in [GL_LIGHTING, GL_LIGHT0, GL_DEPTH_TEST] {
             gl.enable(capability);
         }
@@ -88,6 +82,17 @@ impl Stage {
     pub(super) fn brightness(&self, [x, y]: [u32; 2]) -> i32 {
         i32::from(self.picture()[((y * SIZE.0 + x) * 4 + 1) as usize])
     }
+}
+
+/// The camera of these worlds, which looks down at their floor.
+pub(super) fn look_down(gl: &mut Context) {
+    gl.matrix_mode(GL_PROJECTION);
+    gl.load_identity();
+    gl.frustum(-0.8, 0.8, -0.6, 0.6, 1.0, 50.0);
+    gl.matrix_mode(GL_MODELVIEW);
+    gl.load_identity();
+    gl.translate(0.0, -0.5, -6.0);
+    gl.rotate(35.0, 1.0, 0.0, 0.0);
 }
 
 /// A square that lies flat.

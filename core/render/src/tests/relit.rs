@@ -8,7 +8,7 @@ use afterglow_records::Paint;
 use afterglow_scene::{Relighting, Replacing};
 use glam::Vec3;
 
-use super::pathtrace::{SIZE, Stage};
+use super::pathtrace::{SIZE, Stage, look_down};
 use crate::testing::assert_valid;
 use crate::{Mode, PathtraceOptions};
 
@@ -78,13 +78,7 @@ fn floor(gl: &mut Context, has_colors: bool, repeats: f32) {
 
 fn frame(gl: &mut Context, into: Into) {
     gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl.matrix_mode(GL_PROJECTION);
-    gl.load_identity();
-    gl.frustum(-0.8, 0.8, -0.6, 0.6, 1.0, 50.0);
-    gl.matrix_mode(GL_MODELVIEW);
-    gl.load_identity();
-    gl.translate(0.0, -0.5, -6.0);
-    gl.rotate(35.0, 1.0, 0.0, 0.0);
+    look_down(gl);
     gl.enable(GL_DEPTH_TEST);
     gl.color([1.0; 4]);
     gl.enable(GL_TEXTURE_2D);

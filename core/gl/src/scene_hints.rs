@@ -212,6 +212,7 @@ impl Context {
             material: HintMaterial {
                 roughness_metallic: said.roughness_metallic,
                 emission: said.emission,
+                base_color: None,
                 normal_map: self.map(said.normal_map),
                 metallic_roughness_map: self.map(said.metallic_roughness_map),
                 emission_map: self.map(said.emission_map),

@@ -3,6 +3,7 @@
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::{Frame, PixelBuffer, Rect};
 use afterglow_gpu::{BindlessSizes, BindlessTable, Gpu, GpuError};
+use afterglow_scene::Scene;
 use hashbrown::HashMap;
 
 use crate::drawables::Seat;
@@ -123,6 +124,15 @@ impl Renderer {
     /// If the device fails; then the frame, and what comes after it, may be lost.
     pub fn execute_traced(&mut self, frame: &mut Frame) -> Result<(), RenderError> {
         let understood = self.tracer.as_mut().map(|tracer| tracer.understand(frame));
+        self.execute_and_read(frame, None, understood.as_ref()).map(|_| ())
+    }
+
+    /// Executes a frame whose scene is known: nothing is recovered.
+    ///
+    /// # Errors
+    /// As [`Renderer::execute_traced`].
+    pub fn execute_staged(&mut self, frame: &mut Frame, scene: Scene) -> Result<(), RenderError> {
+        let understood = self.tracer.as_mut().map(|tracer| tracer.stage(frame, scene));
         self.execute_and_read(frame, None, understood.as_ref()).map(|_| ())
     }
 

@@ -126,6 +126,9 @@ pub enum LightOrigin {
     Profile,
     /// The world's baked light: what was found to have been there when it was baked.
     Recovered,
+    /// A scene file. A point of light that falls off with the square of the distance is a sphere there, which is seen and
+    /// hides what is behind it; its radiance is its colour over its radius squared.
+    SceneFile,
     /// Nothing was found: a soft sun.
     Fallback,
 }
@@ -138,6 +141,7 @@ impl fmt::Display for LightOrigin {
             LightOrigin::Program(id) => write!(f, "program {id}"),
             LightOrigin::Profile => f.write_str("profile"),
             LightOrigin::Recovered => f.write_str("recovered"),
+            LightOrigin::SceneFile => f.write_str("scene file"),
             LightOrigin::Fallback => f.write_str("fallback"),
         }
     }

@@ -106,7 +106,7 @@ impl Source {
     /// Of a light.
     pub fn of(origin: LightOrigin) -> Source {
         match origin {
-            LightOrigin::Gl(_) | LightOrigin::Program(_) => Source::Gl,
+            LightOrigin::Gl(_) | LightOrigin::Program(_) | LightOrigin::SceneFile => Source::Gl,
             LightOrigin::Fallback => Source::Fallback,
             LightOrigin::Profile => Source::Profile,
             LightOrigin::Recovered => Source::Baked,

@@ -43,6 +43,9 @@ pub struct HintMaterial {
     pub roughness_metallic: Option<[f32; 2]>,
     /// Radiance, linear RGB; 1 is the white of a picture.
     pub emission: Option<[f32; 3]>,
+    /// Albedo in place of the program's colours, linear RGB: of a scene file's surface. Such a surface is flat, and gives
+    /// its emission off from its front side only.
+    pub base_color: Option<[f32; 3]>,
     pub normal_map: Option<TextureBinding>,
     /// Roughness in green, metallic in blue.
     pub metallic_roughness_map: Option<TextureBinding>,

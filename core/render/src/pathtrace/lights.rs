@@ -50,7 +50,10 @@ impl Highlights {
         let color = match light.origin {
             LightOrigin::Gl(number) => self.colors.get(usize::from(number)).copied().flatten(),
             LightOrigin::Program(_) => return light.color.to_array(),
-            LightOrigin::Profile | LightOrigin::Recovered | LightOrigin::Fallback => None,
+            LightOrigin::Profile
+            | LightOrigin::Recovered
+            | LightOrigin::SceneFile
+            | LightOrigin::Fallback => None,
         };
         linear_from_srgb(Vec3::from(color.unwrap_or_default()).clamp(Vec3::ZERO, Vec3::ONE)).to_array()
     }

@@ -113,7 +113,12 @@ impl Tracer {
 
     /// Judges a frame, and puts it in order if it has a world.
     pub(crate) fn understand(&mut self, frame: &mut Frame) -> Understood {
-        let mut scene = self.recovery.understand(frame);
+        let scene = self.recovery.understand(frame);
+        self.stage(frame, scene)
+    }
+
+    /// Puts a frame in order whose scene is known.
+    pub(crate) fn stage(&mut self, frame: &mut Frame, mut scene: Scene) -> Understood {
         if scene.cut {
             self.forget();
             self.has_exposure = false;

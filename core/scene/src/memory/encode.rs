@@ -190,6 +190,7 @@ fn read_said(reader: &mut Reader<'_>) -> Option<(HintMaterial, [u64; MAPS])> {
     let said = HintMaterial {
         roughness_metallic: has_roughness.then_some(roughness_metallic),
         emission: has_emission.then_some(emission),
+        base_color: None,
         normal_map,
         metallic_roughness_map,
         emission_map,

@@ -50,6 +50,7 @@ impl Observed {
             LightOrigin::Program(_)
             | LightOrigin::Profile
             | LightOrigin::Recovered
+            | LightOrigin::SceneFile
             | LightOrigin::Fallback => None,
         });
         let recovered = scene.lights.iter().filter(|light| light.origin == LightOrigin::Recovered);

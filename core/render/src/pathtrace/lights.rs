@@ -30,7 +30,6 @@ pub(crate) struct LightList {
     pub(crate) nodes: Vec<LightNode>,
     pub(crate) far_count: usize,
     /// The spheres that rays meet: numbers of lights.
-    #[expect(dead_code, reason = "rays meet triangles only, yet")]
     pub(crate) spheres: std::ops::Range<usize>,
     /// Number of the first triangle.
     pub(crate) first_triangle: usize,

@@ -89,8 +89,10 @@ mod tests {
         assert_eq!(f64::from(greatest), f64::from(u32::MAX >> 8) / f64::from(1 << 24));
     }
 
+    type Stream = fn(u32) -> Vec4;
+
     /// Streams that vary one input alone, from where f32 would no longer tell neighbours apart.
-    const STREAMS: [(&str, fn(u32) -> Vec4); 6] = [
+    const STREAMS: [(&str, Stream); 6] = [
         ("pixel", |i| independent(i, 0, 0, 0)),
         ("pixel over 2^16", |i| independent(i + (1 << 16), 3, 1, 0)),
         ("sample over 2^24", |i| independent(5, i + (1 << 24), 2, 0)),

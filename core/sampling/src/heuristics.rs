@@ -16,8 +16,7 @@ pub fn balance(own: f32, other: f32) -> f32 {
 /// The power heuristic with exponent 2; of ratios, since squares of densities overflow.
 pub fn power_heuristic(own: f32, other: f32) -> f32 {
     let greater = own.max(other);
-    // Written so that NaN is refused too.
-    if greater.partial_cmp(&LEAST_DENSITY).is_none_or(std::cmp::Ordering::is_lt) {
+    if greater < LEAST_DENSITY {
         return 0.0;
     }
     let own_share = own / greater;

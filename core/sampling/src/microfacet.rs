@@ -64,6 +64,7 @@ fn unit(vector: Vec3) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::{Mean, draws};
 
     const ALPHAS: [f32; 7] = [1e-3, 2e-3, 0.01, 0.04, 0.16, 0.5, 1.0];
 
@@ -149,13 +150,30 @@ mod tests {
 
     #[test]
     fn visible_normals_are_visible_unit_vectors() {
-        for random in crate::testing::draws(11, 100_000) {
+        for random in draws(11, 100_000) {
             let alpha = alpha_of(random.x);
             let cos = if random.y < 0.1 { 1e-6 } else { random.y };
             let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
             let normal = sample_visible_normal(wo, alpha, Vec2::new(random.z, random.w));
             assert!(normal.z > 0.0 && (normal.length() - 1.0).abs() < 1e-6, "{normal}");
             assert!(normal.dot(wo) > -1e-6, "{normal} {wo}");
+        }
+    }
+
+    #[test]
+    fn normals_seen_from_above_are_distributed_as_d_times_cosine() {
+        // tan^2 / (tan^2 + alpha^2) is uniform then, for mirrors too.
+        for alpha in ALPHAS {
+            let (mut first, mut second) = (Mean::new(), Mean::new());
+            for random in draws(12, 100_000) {
+                let n = sample_visible_normal(Vec3::Z, alpha, Vec2::new(random.x, random.y)).as_dvec3();
+                let tan2 = n.truncate().length_squared() / (n.z * n.z);
+                let x = tan2 / (tan2 + f64::from(alpha).powi(2));
+                first.add(x);
+                second.add(x * x);
+            }
+            first.assert_near(0.5, 5.0);
+            second.assert_near(1.0 / 3.0, 5.0);
         }
     }
 

@@ -23,11 +23,8 @@ fn form_factor(seed: u32, triangles: &[[Vec3; 3]], point: impl Fn(Vec2) -> Vec3)
 
 #[test]
 fn parallel_squares_near_and_far() {
-    let distances = [
-        (1.0, 0.199_824_895_698_387_46),
-        (0.1, 0.826_994_522_397_256_5),
-        (10.0, 0.003_162_056_838_754_684_8),
-    ];
+    let distances =
+        [(1.0, 0.199_824_895_698_387_46), (0.1, 0.826_994_522_397_256_5), (10.0, 0.003_162_056_838_754_685)];
     for (seed, (distance, expected)) in (0..).zip(distances) {
         let other = parallelogram(Vec3::Z * distance, [Vec3::Y, Vec3::X]);
         form_factor(seed, &other, |at| at.extend(0.0)).assert_near(expected, 4.0);

@@ -43,20 +43,21 @@ fn bin(wi: Vec3) -> usize {
     row.min(ROWS - 1) * COLUMNS + column.min(COLUMNS - 1)
 }
 
-/// The integral of the density over each bin, by the midpoint rule: finer by cosine, which hardly changes about the normal.
+/// The integral of the density over each bin, by the midpoint rule; narrow lobes are narrow in cosine about the normal,
+/// and in azimuth at grazing.
 fn chances(bsdf: &Bsdf, wo: Vec3) -> Vec<f64> {
-    const FINE: [usize; 2] = [96, 8];
+    let fine: [usize; 2] = if bsdf.alpha < 0.2 { [96, 32] } else { [24, 8] };
     let mut chances = vec![0.0; ROWS * COLUMNS];
-    for row in 0..ROWS * FINE[0] {
-        let z = (row as f64 + 0.5) / (ROWS * FINE[0]) as f64;
-        for column in 0..COLUMNS * FINE[1] {
-            let turn = (column as f64 + 0.5) / (COLUMNS * FINE[1]) as f64 * TAU;
+    for row in 0..ROWS * fine[0] {
+        let z = (row as f64 + 0.5) / (ROWS * fine[0]) as f64;
+        for column in 0..COLUMNS * fine[1] {
+            let turn = (column as f64 + 0.5) / (COLUMNS * fine[1]) as f64 * TAU;
             let across = (1.0 - z * z).sqrt();
             let wi = glam::DVec3::new(across * turn.cos(), across * turn.sin(), z).as_vec3();
-            chances[row / FINE[0] * COLUMNS + column / FINE[1]] += f64::from(bsdf_pdf(bsdf, wo, wi));
+            chances[row / fine[0] * COLUMNS + column / fine[1]] += f64::from(bsdf_pdf(bsdf, wo, wi));
         }
     }
-    let cell = TAU / (ROWS * COLUMNS * FINE[0] * FINE[1]) as f64;
+    let cell = TAU / (ROWS * COLUMNS * fine[0] * fine[1]) as f64;
     chances.iter().map(|chance| chance * cell).collect()
 }
 

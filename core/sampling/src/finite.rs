@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 /// Most that a channel of radiance may be, so that sums of squares stay finite.
-pub const MOST_RADIANCE: f32 = 1e18;
+pub const LARGEST_RADIANCE: f32 = 1e18;
 
 /// Radiance that can be added up.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,16 +12,16 @@ pub struct FiniteRadiance {
     pub value: Vec3,
     /// No channel was infinite or not a number.
     pub was_finite: bool,
-    /// A channel was beyond [`MOST_RADIANCE`].
+    /// A channel was beyond [`LARGEST_RADIANCE`].
     pub was_capped: bool,
 }
 
-/// Radiance that can be added up: black where a channel is not finite, else each at most [`MOST_RADIANCE`].
+/// Radiance that can be added up: black where a channel is not finite, else each at most [`LARGEST_RADIANCE`].
 pub fn finite_radiance(radiance: Vec3) -> FiniteRadiance {
     if !radiance.is_finite() {
         return FiniteRadiance { value: Vec3::ZERO, was_finite: false, was_capped: false };
     }
-    let capped = radiance.clamp(Vec3::splat(-MOST_RADIANCE), Vec3::splat(MOST_RADIANCE));
+    let capped = radiance.clamp(Vec3::splat(-LARGEST_RADIANCE), Vec3::splat(LARGEST_RADIANCE));
     FiniteRadiance { value: capped, was_finite: true, was_capped: capped != radiance }
 }
 

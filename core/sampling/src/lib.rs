@@ -6,6 +6,19 @@
 //!
 //! Directions are unit vectors. Densities are per steradian. Random numbers are in [0, 1), multiples of 2^-24
 //! ([`random`]). Lengths are the world's; radiance is linear RGB in any unit.
+//!
+//! ```
+//! use afterglow_sampling::bsdf::{Bsdf, sample_bsdf};
+//! use afterglow_sampling::microfacet::alpha_of;
+//! use afterglow_sampling::random::independent;
+//! use glam::Vec3;
+//!
+//! // A rough mirror seen head-on reflects at most what arrives.
+//! let bsdf = Bsdf { diffuse: Vec3::ZERO, specular: Vec3::ONE, alpha: alpha_of(0.3) };
+//! let random = independent(0, 0, 0, 0);
+//! let sample = sample_bsdf(&bsdf, Vec3::Z, random.x, random.truncate().truncate());
+//! assert!(sample.weight.max_element() <= 1.0);
+//! ```
 
 pub mod alias;
 pub mod bsdf;

@@ -84,9 +84,10 @@ impl Fields {
 }
 
 /// Rounding of formulas of a dozen operations: Vulkan allows 2.5 units for a division and a square root each, and products
-/// and sums may be fused or not.
+/// and sums may be fused or not. (On lavapipe whatever no sine enters has the same bits.)
 const ULPS: f32 = 16.0;
-/// Rounding of a unit vector's component, with sine and cosine from a device's polynomials.
+/// Rounding of a unit vector's component, with sine and cosine from a device's polynomials. Vulkan would allow 2^-11 for these;
+/// devices are within a few units in the last place, and densities must not notice.
 const DIRECTION: f32 = 2e-6;
 
 /// How much rounding of a point of the disc grows at its rim, where the third coordinate is the root of what is left of 1.

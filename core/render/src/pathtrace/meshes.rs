@@ -94,7 +94,7 @@ impl Meshes {
             true => Quality::Good,
             false => Quality::Fast,
         };
-        let input = BlasInput { positions: corners, indices: &indices, attributes };
+        let input = BlasInput { positions: corners, indices: &indices, attributes, ..BlasInput::default() };
         self.built += attributes.len();
         let blas = build_blas_with(&input, quality)
             .map_err(|error| tracing::warn!("a mesh is left out: {error}"))

@@ -15,5 +15,8 @@ struct TracePayload {
 };
 
 const uint NO_INSTANCE = 0xffffffffu;
+// Of spheres met from outside and from inside, as gl_HitKindEXT has it for triangles.
+const uint SPHERE_FRONT = 0u;
+const uint SPHERE_BACK = 1u;
 
 #endif

@@ -14,6 +14,6 @@ hitAttributeEXT vec2 barycentrics;
 
 void main() {
     uint primitive = uint(gl_GeometryIndexEXT) << MEMBER_SHIFT | uint(gl_PrimitiveID);
-    uint front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT ? 1u : 0u;
-    met = TracePayload(gl_HitTEXT, barycentrics, primitive, uint(gl_InstanceCustomIndexEXT), front);
+    bool front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT || gl_HitKindEXT == SPHERE_FRONT;
+    met = TracePayload(gl_HitTEXT, barycentrics, primitive, uint(gl_InstanceCustomIndexEXT), uint(front));
 }

@@ -44,7 +44,7 @@ void main() { if (gl_PrimitiveID == 0) ignoreIntersectionEXT; }";
 /// Meets every box at half its depth.
 const MIDDLE: &str = r"
 hitAttributeEXT vec2 barycentrics;
-void main() { barycentrics = vec2(0.5); reportIntersectionEXT(1.5, gl_HitKindBackFacingTriangleEXT); }";
+void main() { barycentrics = vec2(0.5); reportIntersectionEXT(1.5, 1u); }";
 
 #[derive(Clone, Copy, bytemuck::NoUninit)]
 #[repr(C)]

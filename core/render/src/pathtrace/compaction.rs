@@ -77,7 +77,8 @@ impl Compaction {
     /// Records this frame's questions, after the builds.
     pub(super) fn record_questions(&self, commands: &Commands<'_>, frame: u64) {
         for asked in self.asked.iter().filter(|asked| asked.frame == frame) {
-            let structures: Vec<_> = asked.structures.iter().map(|(_, structure)| structure.as_ref()).collect();
+            let structures: Vec<_> =
+                asked.structures.iter().map(|(_, structure)| structure.as_ref()).collect();
             commands.write_compacted_sizes(&asked.sizes, &structures);
         }
     }

@@ -61,12 +61,14 @@ impl<'a> DriverInput<'a> {
         let (triangles, _) = corners.as_chunks::<3>();
         let is_met: Vec<bool> = triangles.iter().map(can_be_met).collect();
         let met = || triangles.iter().zip(&is_met).filter(|(_, is_met)| **is_met).map(|(corners, _)| corners);
-        let bounds = met().flatten().fold(Aabb::EMPTY, |sum, corner| sum.union(Aabb::around(&[Vec3::from(*corner)])));
+        let bounds =
+            met().flatten().fold(Aabb::EMPTY, |sum, corner| sum.union(Aabb::around(&[Vec3::from(*corner)])));
         let place = met().next()?[0];
         let corners = match is_met.iter().all(|is_met| *is_met) {
             true => Cow::Borrowed(corners),
             false => {
-                let sound = |(corners, is_met): (&[[f32; 3]; 3], &bool)| if *is_met { *corners } else { [place; 3] };
+                let sound =
+                    |(corners, is_met): (&[[f32; 3]; 3], &bool)| if *is_met { *corners } else { [place; 3] };
                 triangles.iter().zip(&is_met).flat_map(sound).collect()
             }
         };
@@ -141,13 +143,12 @@ fn box_of(&[x, y, z, radius]: &[f32; 4]) -> Option<Aabb> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pathtrace::structures::Member;
 
     const CORNERS: [[f32; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
     fn triangles(corners: &[[f32; 3]]) -> Option<DriverInput<'_>> {
-        let members = [Member { triangles: corners.len() as u32 / 3, is_alpha_tested: false }];
-        DriverInput::new(&Shapes::Triangles { corners, members: &members })
+        let part = Part { count: corners.len() as u32 / 3, is_opaque: true };
+        DriverInput::of_triangles(corners, vec![part])
     }
 
     #[test]

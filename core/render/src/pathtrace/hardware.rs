@@ -10,7 +10,7 @@ use std::sync::Arc;
 use afterglow_bvh::Aabb;
 use afterglow_bvh::layout::LARGEST_COORDINATE;
 use afterglow_gpu::{
-    Access, AccelerationStructure, BuildScratch, Commands, Gpu, GpuError, StructureBuild, StructureGeometry,
+    AccelerationStructure, Access, BuildScratch, Commands, Gpu, GpuError, StructureBuild, StructureGeometry,
     StructureInput, StructureInstance, StructureUse,
 };
 use glam::Mat3;
@@ -263,7 +263,10 @@ impl HardwareStructures {
             return None;
         }
         if placed.id > StructureInstance::MOST_ID {
-            tracing::warn!("an instance is left out: the device takes ids up to {}", StructureInstance::MOST_ID);
+            tracing::warn!(
+                "an instance is left out: the device takes ids up to {}",
+                StructureInstance::MOST_ID
+            );
             return None;
         }
         let bounds = mesh.bounds.transformed(&placed.object_to_world);

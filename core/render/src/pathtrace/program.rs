@@ -1,12 +1,13 @@
 //! A pass that shoots rays, as a compute pipeline or as a ray-tracing pipeline.
 
 use afterglow_gpu::{
-    BindlessTable, Commands, ComputeDesc, ComputePipeline, Gpu, GpuError, HitGroup, RayPipeline, RayPipelineDesc,
+    BindlessTable, Commands, ComputeDesc, ComputePipeline, Gpu, GpuError, HitGroup, RayPipeline,
+    RayPipelineDesc,
 };
 use afterglow_records::ViewPush;
 use afterglow_shaders as shaders;
 
-use super::options::Backend;
+use super::backend::Backend;
 use super::pipelines::{pixel_groups, run};
 
 /// The two forms of one source: see `shaders/include/trace.glsl` for how a pass gets its second.
@@ -60,7 +61,13 @@ impl Program {
     }
 
     /// Runs it for every pixel.
-    pub(crate) fn run(&self, commands: &Commands<'_>, table: &BindlessTable, push: &ViewPush, size: [u32; 2]) {
+    pub(crate) fn run(
+        &self,
+        commands: &Commands<'_>,
+        table: &BindlessTable,
+        push: &ViewPush,
+        size: [u32; 2],
+    ) {
         match self {
             Self::Software(pipeline) => run(commands, table, pipeline, push, pixel_groups(size)),
             Self::Hardware(pipeline) => commands.trace_rays(pipeline, &[table.set()], push, size),

@@ -6,9 +6,9 @@
 use afterglow_bvh::Aabb;
 use afterglow_gpu::{Commands, Gpu, GpuError};
 
+use super::backend::Backend;
 use super::hardware::HardwareStructures;
 use super::meshes::Meshes;
-use super::options::Backend;
 use crate::uploads::UploadArena;
 
 /// Frames after which a mesh that no frame has used is given up.

@@ -3,23 +3,26 @@
 //! A draw of a retained range is a mesh of its own, built once; so is a block of remembered ones. Other draws change, or are sent anew with every
 //! frame: those that share a matrix are one mesh, built again when any of them has changed.
 
-use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
-use afterglow_bvh::{Instance, TriangleAttributes, build_tlas};
+use afterglow_bvh::IDENTITY;
 use afterglow_gl::frame::{Draw, Frame, VertexSource};
 use afterglow_gpu::{Gpu, GpuError};
-use afterglow_records::{MEMBER_SHIFT, MeshMember};
+use afterglow_records::{MASK_STATIC, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MeshMember};
 use glam::{DVec3, Mat4};
 use hashbrown::HashMap;
-use xxhash_rust::xxh3::Xxh3;
+use xxhash_rust::xxh3::{Xxh3, xxh3_64_with_seed};
 
+use super::backend::Backend;
 use super::geometry::{GeometryReader, Triangles};
 use super::lights::LightList;
-use super::meshes::Meshes;
+use super::structures::{Member, MeshInput, Placed, Shapes, Structures};
 use crate::uploads::UploadArena;
 
 /// Triangles of a member, and members of a mesh, that a hit's primitive can name.
 const MOST_TRIANGLES: u32 = 1 << MEMBER_SHIFT;
 const MOST_MEMBERS: usize = 1 << (32 - MEMBER_SHIFT);
+
+/// Tells spheres from triangles with the same bytes.
+const SPHERES_SEED: u64 = 1;
 
 /// A traced draw.
 #[derive(Debug, Clone)]
@@ -39,7 +42,7 @@ pub(crate) struct Traced<'a> {
 /// The top level and what its hits are numbered by, on the device.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct World {
-    pub(crate) tlas: u64,
+    pub(crate) top_level: u64,
     pub(crate) members: u64,
     pub(crate) instances: u32,
     /// The longest side of its box.
@@ -61,22 +64,24 @@ type GroupKey = ([u32; 16], u8, Option<u32>);
 
 /// Keeps meshes from frame to frame.
 pub(crate) struct WorldBuilder {
-    meshes: Meshes,
+    structures: Structures,
     pub(crate) geometry: GeometryReader,
 }
 
 impl WorldBuilder {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self { meshes: Meshes::new(gpu), geometry: GeometryReader::default() }
+    /// # Errors
+    /// If the device lacks the backend.
+    pub(crate) fn new(gpu: &Gpu, backend: Backend) -> Result<Self, GpuError> {
+        Ok(Self { structures: Structures::new(gpu, backend)?, geometry: GeometryReader::default() })
     }
 
-    pub(crate) fn begin_frame(&mut self) {
-        self.meshes.begin_frame();
+    pub(crate) fn begin_frame(&mut self) -> Result<(), GpuError> {
         self.geometry.begin_frame();
+        self.structures.begin_frame()
     }
 
-    pub(crate) fn meshes(&self) -> &Meshes {
-        &self.meshes
+    pub(crate) fn structures(&self) -> &Structures {
+        &self.structures
     }
 
     /// Builds the world as seen from `origin`, in world space.
@@ -84,44 +89,39 @@ impl WorldBuilder {
         &mut self,
         frame: &Frame,
         traced: &[Traced<'_>],
-        _lights: &LightList,
+        lights: &LightList,
         origin: DVec3,
         arena: &mut UploadArena,
     ) -> Result<World, GpuError> {
-        let mut members = Vec::new();
-        let mut instances = Vec::new();
-        for group in groups(traced) {
-            let content = content_of(&group, traced);
-            if !self.meshes.has(content) {
-                self.build_mesh(frame, &group, traced, content, arena)?;
-            }
-            let Some(mesh) = self.meshes.get(content) else { continue };
-            instances.push(Instance {
-                object_to_world: relative(&group.model, origin),
-                blas: mesh.address,
-                bounds: mesh.bounds,
-                id: members.len() as u32,
-                mask: group.mask,
-                flags: 0,
-            });
-            members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
+        let groups: Vec<_> =
+            groups(traced).into_iter().map(|group| (content_of(&group, traced), group)).collect();
+        // What is there is taken first: the rest may be made of what is not.
+        for (content, _) in &groups {
+            self.structures.take(*content);
         }
-        let tlas = match build_tlas(&instances) {
-            Ok(tlas) => tlas,
-            Err(error) => {
-                tracing::warn!("rays meet nothing: {error}");
-                members.clear();
-                build_tlas(&[]).unwrap_or_else(|_| unreachable!("no instances are not too many"))
+        let mut members = Vec::new();
+        let mut placed = Vec::new();
+        for (content, group) in &groups {
+            if !self.structures.has(*content) {
+                self.build_mesh(frame, group, traced, *content, arena)?;
             }
-        };
+            if self.structures.take(*content) {
+                placed.push(Placed {
+                    content: *content,
+                    object_to_world: relative(&group.model, origin),
+                    id: members.len() as u32,
+                    mask: group.mask,
+                });
+                members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
+            }
+        }
+        self.add_spheres(lights, &mut members, &mut placed, arena)?;
+        let top = self.structures.top_level(&placed, arena)?;
         Ok(World {
-            tlas: self.meshes.upload_once(&tlas.words, arena)?,
+            top_level: top.address,
             members: arena.push_table(&members)?.address,
-            instances: tlas.instance_count,
-            extent: match tlas.bounds.is_empty() {
-                true => 0.0,
-                false => (tlas.bounds.max - tlas.bounds.min).max_element(),
-            },
+            instances: top.instances,
+            extent: top.extent,
         })
     }
 
@@ -134,8 +134,7 @@ impl WorldBuilder {
         arena: &mut UploadArena,
     ) -> Result<(), GpuError> {
         let mut corners = Vec::new();
-        let mut attributes = Vec::new();
-        let mut first_member = 0;
+        let mut members = Vec::new();
         for &index in &group.draws {
             let traced = &traced[index];
             let mut range = traced.triangles.corners.clone();
@@ -143,15 +142,46 @@ impl WorldBuilder {
                 range = self.geometry.corners(frame, traced.draw);
             }
             corners.extend_from_slice(&self.geometry.corners[range]);
-            let flags = if traced.is_alpha_tested { FLAG_ALPHA_TESTED } else { 0 };
-            attributes.extend((0..traced.triangles.count).map(|triangle| TriangleAttributes {
-                primitive: ((first_member + triangle / MOST_TRIANGLES) << MEMBER_SHIFT)
-                    | (triangle % MOST_TRIANGLES),
-                flags,
+            members.extend(members_of(traced).map(|member| Member {
+                triangles: MOST_TRIANGLES.min(traced.triangles.count - member.first_triangle),
+                is_alpha_tested: traced.is_alpha_tested,
             }));
-            first_member += member_count(traced) as u32;
         }
-        self.meshes.build(content, &corners, &attributes, group.is_lasting, arena)
+        let shapes = Shapes::Triangles { corners: &corners, members: &members };
+        self.structures.build(content, &MeshInput { shapes, is_lasting: group.is_lasting }, arena)
+    }
+
+    /// Adds the lights that are spheres as one mesh; they are relative to the origin already.
+    fn add_spheres(
+        &mut self,
+        lights: &LightList,
+        members: &mut Vec<MeshMember>,
+        placed: &mut Vec<Placed>,
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        let sources = lights.sources.get(lights.spheres.clone()).unwrap_or_default();
+        if sources.is_empty() || sources.len() > MOST_TRIANGLES as usize {
+            return Ok(());
+        }
+        let spheres: Vec<_> = sources
+            .iter()
+            .map(|source| {
+                let [x, y, z] = source.position;
+                [x, y, z, source.radius]
+            })
+            .collect();
+        let content = xxh3_64_with_seed(bytemuck::cast_slice(&spheres), SPHERES_SEED);
+        if !self.structures.has(content) {
+            let input = MeshInput { shapes: Shapes::Spheres(&spheres), is_lasting: false };
+            self.structures.build(content, &input, arena)?;
+        }
+        if self.structures.take(content) {
+            let mask = MASK_STATIC as u8;
+            placed.push(Placed { content, object_to_world: IDENTITY, id: members.len() as u32, mask });
+            members
+                .push(MeshMember { draw: MEMBER_OF_LIGHTS | lights.spheres.start as u32, first_triangle: 0 });
+        }
+        Ok(())
     }
 }
 
@@ -233,7 +263,7 @@ mod tests {
     }
 
     fn world(builder: &mut WorldBuilder, frame: &Frame) -> (World, usize) {
-        builder.begin_frame();
+        builder.begin_frame().unwrap();
         let mut arena = UploadArena::new(&gpu());
         let traced: Vec<_> = frame
             .draws()
@@ -252,12 +282,12 @@ mod tests {
             })
             .collect();
         let world = builder.build(frame, &traced, &LightList::default(), DVec3::ZERO, &mut arena).unwrap();
-        (world, builder.meshes().built)
+        (world, builder.structures().built())
     }
 
     #[test]
     fn draws_of_one_matrix_are_one_mesh_that_is_built_when_it_changes() {
-        let mut builder = WorldBuilder::new(&gpu());
+        let mut builder = WorldBuilder::new(&gpu(), Backend::Software).unwrap();
         let (first, built) = world(&mut builder, &frame(0.25));
         assert_eq!((first.instances, built), (2, 6));
         assert_eq!(world(&mut builder, &frame(0.25)).1, 0);

@@ -3,7 +3,7 @@
 // The includer enables GL_EXT_buffer_reference, GL_EXT_scalar_block_layout and
 // GL_EXT_shader_explicit_arithmetic_types_int64, and defines
 //     bool accept_hit(uint instance, uint primitive, vec2 barycentrics);
-// which is asked only for triangles that are flagged alpha-tested, or whose instance is. Call
+// which is asked only for triangles and spheres that are flagged alpha-tested, or whose instance is. Call
 // bvh_trace from one place, in a loop: each call site is compiled anew.
 
 #ifndef AFTERGLOW_BVH_GLSL
@@ -51,7 +51,7 @@ bool bvh_trace(uint64_t tlas, vec3 origin, float t_min, vec3 direction, float t_
                 uint place = bvh_take_leaf(leaves, BVH_TRIANGLE_UNITS);
                 TriangleHit met;
                 uint primitive, flags;
-                if (!bvh_meet_triangle(structure, place, ray, met, primitive, flags)) {
+                if (!bvh_meet_triangle(structure, place, ray, t_min, met, primitive, flags)) {
                     continue;
                 }
                 bool closer = met.t > t_min && (met.t < hit.t || met.t == hit.t

@@ -16,6 +16,7 @@ const uint BVH_MAX_STEPS = 262144u;
 const uint BVH_FLAG_ALPHA_TESTED = 1u;
 const uint BVH_FLAG_TWO_SIDED = 2u;
 const uint BVH_FLAG_IDENTITY = 4u;
+const uint BVH_FLAG_SPHERE = 8u;
 
 // 64-bit loads: lavapipe gathers component by component, and others merge them anyway.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhUnits {
@@ -145,8 +146,8 @@ void bvh_visit(uint64_t structure, uint place, BvhRay ray, float t_min, float t_
     leaves = BvhGroup(body.y, met & 0x00ffffffu);
 }
 
-// Meets the triangle at `place`; its number and flags are valid where it is met.
-bool bvh_meet_triangle(uint64_t structure, uint place, BvhRay ray, out TriangleHit hit, out uint primitive, out uint flags) {
+// Meets the triangle at `place`, or the sphere beyond t_min; its number and flags are valid where it is met.
+bool bvh_meet_triangle(uint64_t structure, uint place, BvhRay ray, float t_min, out TriangleHit hit, out uint primitive, out uint flags) {
     BvhUnits triangle = BvhUnits(structure + uint64_t(place) * 16ul);
     uvec4 first = bvh_words(triangle.unit[0]);
     uvec4 second = bvh_words(triangle.unit[1]);
@@ -156,6 +157,15 @@ bool bvh_meet_triangle(uint64_t structure, uint place, BvhRay ray, out TriangleH
     vec3 c = uintBitsToFloat(uvec3(second.zw, third.x));
     primitive = third.y;
     flags = third.z;
+    // A loop, not a branch: where no ray of a group meets a sphere, lavapipe leaves out a loop only.
+    for (bool sphere = (flags & BVH_FLAG_SPHERE) != 0u; sphere; ) {
+        SphereHit met;
+        if (!intersect_sphere(ray.origin, ray.inverse, ray.shear, t_min, a, b.x, met)) {
+            return false;
+        }
+        hit = TriangleHit(met.t, vec2(0.0), met.front);
+        return true;
+    }
     return intersect_triangle(ray.origin, ray.shear, a, b, c, hit);
 }
 

@@ -1,4 +1,4 @@
-// Rays and triangles: the watertight test and the start of secondary rays.
+// Rays, triangles and spheres: the watertight test, and the start of secondary rays.
 // Twin of core/bvh/src/intersect.rs: same names, same operations in the same order.
 
 #ifndef AFTERGLOW_RAY_GLSL
@@ -76,6 +76,43 @@ bool intersect_triangle(vec3 origin, RayShear shear, vec3 corner_a, vec3 corner_
     hit.barycentrics = vec2(weight_b, weight_c) * scale;
     bool backwards = shear.depth.x + shear.depth.y + shear.depth.z < 0.0;
     hit.front = (determinant > 0.0) == backwards;
+    return true;
+}
+
+// Where a ray meets a sphere.
+struct SphereHit {
+    float t;    // in lengths of the ray's direction
+    bool front; // from outside
+};
+
+// Whether the line through `origin` meets the sphere; if so, where first beyond t_min. `inverse` holds the
+// direction's reciprocals.
+//
+// The square of the half chord is taken from the ray's point nearest to the centre, and the nearer of
+// two distances by the product of both, so that no digits cancel (Haines, Guenther and Akenine-Moeller,
+// Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019, chapter 7).
+bool intersect_sphere(vec3 origin, vec3 inverse, RayShear shear, float t_min, vec3 centre, float radius, out SphereHit hit) {
+    // A direction whose longest component is 1: no length of the ray's own overflows.
+    float scale = abs(shear.depth.x + shear.depth.y + shear.depth.z);
+    precise vec3 direction = scale / inverse;
+    vec3 from = origin - centre;
+    float squared = dot_fused(direction, direction);
+    float towards = -dot_fused(from, direction);
+    precise float nearest = towards / squared;
+    precise vec3 aside = fma(vec3(nearest), direction, from);
+    precise float half_chord_squared = fma(radius, radius, -dot_fused(aside, aside));
+    if (half_chord_squared < 0.0 || isnan(half_chord_squared)) {
+        return false;
+    }
+    precise float root = sqrt(squared * half_chord_squared);
+    precise float sum = towards < 0.0 ? towards - root : towards + root;
+    precise float product = fma(radius, -radius, dot_fused(from, from));
+    precise float one = sum / squared;
+    precise float other = sum == 0.0 ? 0.0 : product / sum;
+    precise float near = min(one, other) * scale;
+    precise float far = max(one, other) * scale;
+    hit.front = near > t_min;
+    hit.t = hit.front ? near : far;
     return true;
 }
 

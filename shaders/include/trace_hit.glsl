@@ -5,10 +5,10 @@
 
 struct Hit {
     float t;           // in lengths of the ray's direction
-    vec2 barycentrics; // weights of the second and third corner
-    uint primitive;    // the triangle's number in its bottom level
+    vec2 barycentrics; // weights of the second and third corner; 0 on a sphere
+    uint primitive;    // the number of the triangle or sphere in its bottom level
     uint instance;     // the instance's id
-    bool front;        // the corners run counter-clockwise as seen from the origin, in object space
+    bool front;        // the corners run counter-clockwise as seen from the origin, in object space; of a sphere, the outside
 };
 
 #endif

@@ -1,10 +1,12 @@
-//! Bottom levels: triangles in object space.
+//! Bottom levels: triangles and spheres in object space.
 
 use crate::binary::{Split, build};
 use crate::bounds::Aabb;
 use crate::encode::encode;
 use crate::error::{BuildError, check_count};
-use crate::layout::{LARGEST_COORDINATE, MAX_DEPTH_BLAS, MAX_LEAF, Node, TRIANGLE_UNITS, Triangle};
+use crate::layout::{
+    FLAG_SPHERE, LARGEST_COORDINATE, MAX_DEPTH_BLAS, MAX_LEAF, Node, Sphere, TRIANGLE_UNITS, Triangle,
+};
 use crate::optimise::optimise;
 use glam::Vec3;
 
@@ -17,7 +19,7 @@ pub enum Quality {
     Good,
 }
 
-/// What a hit needs to know of a triangle.
+/// What a hit needs to know of a triangle or a sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriangleAttributes {
     /// Reported by a hit.
@@ -26,8 +28,8 @@ pub struct TriangleAttributes {
     pub flags: u32,
 }
 
-/// Triangles to build from.
-#[derive(Clone, Copy, Debug)]
+/// What to build from.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct BlasInput<'a> {
     /// Corners in object space.
     pub positions: &'a [[f32; 3]],
@@ -35,22 +37,26 @@ pub struct BlasInput<'a> {
     pub indices: &'a [[u32; 3]],
     /// One a triangle; or none: primitives then are the triangles' numbers, flags 0.
     pub attributes: &'a [TriangleAttributes],
+    /// Spheres in object space: centre and radius.
+    pub spheres: &'a [[f32; 4]],
+    /// One a sphere; or none: primitives then go on from the number of triangles, flags 0.
+    pub sphere_attributes: &'a [TriangleAttributes],
 }
 
 /// A bottom level, ready to be copied to a 16-byte-aligned device address.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blas {
-    /// Nodes, then triangles; see [`crate::layout`].
+    /// Nodes, then triangles and spheres; see [`crate::layout`].
     pub words: Vec<u32>,
     /// How many nodes.
     pub node_count: u32,
-    /// How many triangles.
+    /// How many triangles and spheres.
     pub triangle_count: u32,
     /// Levels of nodes.
     pub depth: u32,
-    /// Triangles left out: an index or coordinate out of range, or no area.
+    /// Primitives left out: an index or coordinate out of range, no area, a radius that is not positive.
     pub skipped: u32,
-    /// The box of all triangles, in object space.
+    /// The box of all that is inside, in object space.
     pub bounds: Aabb,
 }
 
@@ -65,7 +71,7 @@ impl Blas {
         bytemuck::cast_slice(&self.words[..self.first_triangle()])
     }
 
-    /// The triangles, in the order of leaves.
+    /// The triangles and spheres, in the order of leaves.
     pub fn triangles(&self) -> &[Triangle] {
         bytemuck::cast_slice(&self.words[self.first_triangle()..])
     }
@@ -84,20 +90,19 @@ pub fn build_blas(
     indices: &[[u32; 3]],
     quality: Quality,
 ) -> Result<Blas, BuildError> {
-    let input = BlasInput { positions, indices, attributes: &[] };
+    let input = BlasInput { positions, indices, ..BlasInput::default() };
     build_blas_with(&input, quality)
 }
 
 /// Builds a bottom level; the same input gives the same words, whatever the number of threads.
 ///
 /// # Errors
-/// [`BuildError`] where the input is too large or its attributes are not one a triangle.
+/// [`BuildError`] where the input is too large or its attributes are not one a primitive.
 pub fn build_blas_with(input: &BlasInput, quality: Quality) -> Result<Blas, BuildError> {
-    check_count(input.indices.len())?;
-    let given = input.attributes.len();
-    if given != 0 && given != input.indices.len() {
-        return Err(BuildError::AttributeCount { attributes: given, triangles: input.indices.len() });
-    }
+    let given = input.indices.len() + input.spheres.len();
+    check_count(given)?;
+    check_attributes(input.attributes, input.indices.len())?;
+    check_attributes(input.sphere_attributes, input.spheres.len())?;
     let triangles = gather(input);
     let boxes: Vec<Aabb> = triangles.iter().map(bounds_of).collect();
     let mut tree = build(&boxes, Split::SurfaceArea);
@@ -117,27 +122,46 @@ pub fn build_blas_with(input: &BlasInput, quality: Quality) -> Result<Blas, Buil
         node_count: wide.nodes.len() as u32,
         triangle_count: triangles.len() as u32,
         depth: wide.depth,
-        skipped: (input.indices.len() - triangles.len()) as u32,
+        skipped: (given - triangles.len()) as u32,
         bounds: boxes.iter().fold(Aabb::EMPTY, |sum, &b| sum.union(b)),
     })
 }
 
-/// The triangles that can be hit.
+fn check_attributes(attributes: &[TriangleAttributes], primitives: usize) -> Result<(), BuildError> {
+    let attributes = attributes.len();
+    if attributes != 0 && attributes != primitives {
+        return Err(BuildError::AttributeCount { attributes, primitives });
+    }
+    Ok(())
+}
+
+/// The triangles and spheres that can be hit.
 fn gather(input: &BlasInput) -> Vec<Triangle> {
-    let attributes = |number: usize| {
-        input
-            .attributes
-            .get(number)
-            .copied()
-            .unwrap_or(TriangleAttributes { primitive: number as u32, flags: 0 })
+    let attributes = |given: &[TriangleAttributes], number: usize, primitive: usize| {
+        let numbered = TriangleAttributes { primitive: primitive as u32, flags: 0 };
+        let TriangleAttributes { primitive, flags } = given.get(number).copied().unwrap_or(numbered);
+        (primitive, flags & !FLAG_SPHERE)
     };
     let triangle = |(number, corners): (usize, &[u32; 3])| {
         let vertices = corners_of(input.positions, corners)?;
-        let TriangleAttributes { primitive, flags } = attributes(number);
+        let (primitive, flags) = attributes(input.attributes, number, number);
         Some(Triangle { vertices, primitive, flags, reserved: 0 })
     };
-    let numbered = input.indices.iter().enumerate();
-    numbered.filter_map(triangle).collect()
+    let sphere = |(number, &given): (usize, &[f32; 4])| {
+        let sphere = sphere_of(given)?;
+        let (primitive, flags) = attributes(input.sphere_attributes, number, input.indices.len() + number);
+        Some(Triangle::from_sphere(sphere, primitive, flags))
+    };
+    let triangles = input.indices.iter().enumerate().filter_map(triangle);
+    triangles.chain(input.spheres.iter().enumerate().filter_map(sphere)).collect()
+}
+
+/// The sphere, None where it cannot be hit or would upset the tree.
+fn sphere_of([x, y, z, radius]: [f32; 4]) -> Option<Sphere> {
+    let reach = x.abs().max(y.abs()).max(z.abs()) + radius;
+    // `max` passes over NaN, so each coordinate is asked.
+    let placed = [x, y, z].iter().all(|c| c.is_finite()) && reach <= LARGEST_COORDINATE;
+    (placed && radius > 0.0).then_some(Sphere { centre: [x, y, z], radius })
 }
 
 /// The corners, None where the triangle cannot be hit or would upset the tree.
@@ -156,7 +180,19 @@ pub(crate) fn corners_of(positions: &[[f32; 3]], corners: &[u32; 3]) -> Option<[
 }
 
 pub(crate) fn bounds_of(triangle: &Triangle) -> Aabb {
-    Aabb::around(&triangle.vertices.map(Vec3::from))
+    match triangle.sphere() {
+        Some(sphere) => bounds_of_sphere(&sphere),
+        None => Aabb::around(&triangle.vertices.map(Vec3::from)),
+    }
+}
+
+/// Rounded outwards.
+fn bounds_of_sphere(sphere: &Sphere) -> Aabb {
+    let Sphere { centre, radius } = *sphere;
+    Aabb {
+        min: centre.map(|c| (c - radius).next_down()).into(),
+        max: centre.map(|c| (c + radius).next_up()).into(),
+    }
 }
 
 #[cfg(test)]
@@ -186,6 +222,34 @@ mod tests {
     }
 
     #[test]
+    fn spheres_are_records_beside_triangles() {
+        let spheres = [
+            [1.0, 2.0, 3.0, 0.5],
+            [0.0, 0.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, -1.0],
+            [0.0, 0.0, 0.0, f32::NAN],
+            [0.0, f32::NAN, 0.0, 1.0],
+            [0.0, 0.0, f32::INFINITY, 1.0],
+            [0.0, 0.0, 1.0, f32::INFINITY],
+            [9e10, 0.0, 0.0, 9e10],
+        ];
+        let input = BlasInput {
+            positions: &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            indices: &[[0, 1, 2]],
+            spheres: &spheres,
+            ..BlasInput::default()
+        };
+        let blas = build_blas_with(&input, Quality::Good).unwrap();
+        assert_eq!((blas.triangle_count, blas.skipped), (2, 7));
+        let mut records = blas.triangles().to_vec();
+        records.sort_by_key(|record| record.primitive);
+        assert_eq!(records[0].sphere(), None);
+        assert_eq!(records[1].sphere(), Some(Sphere { centre: [1.0, 2.0, 3.0], radius: 0.5 }));
+        assert_eq!(records[1].primitive, 1);
+        assert!(blas.bounds.max.cmpgt(Vec3::new(1.5, 2.5, 3.5)).all());
+    }
+
+    #[test]
     fn coincident_triangles_stay_shallow() {
         let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let indices = vec![[0, 1, 2]; 30_000];
@@ -210,10 +274,11 @@ mod tests {
             positions: &[[0.0; 3]],
             indices: &[[0; 3], [0; 3]],
             attributes: &[TriangleAttributes { primitive: 0, flags: 0 }],
+            ..BlasInput::default()
         };
         assert_eq!(
             build_blas_with(&input, Quality::Fast),
-            Err(BuildError::AttributeCount { attributes: 1, triangles: 2 })
+            Err(BuildError::AttributeCount { attributes: 1, primitives: 2 })
         );
     }
 

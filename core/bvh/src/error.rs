@@ -11,13 +11,13 @@ pub enum BuildError {
         /// How many fit.
         limit: usize,
     },
-    /// Attributes are given for each triangle or not at all.
-    #[error("{attributes} triangle attributes for {triangles} triangles")]
+    /// Attributes are given for each triangle, and each sphere, or not at all.
+    #[error("{attributes} attributes for {primitives} triangles or spheres")]
     AttributeCount {
         /// Attributes given.
         attributes: usize,
-        /// Triangles given.
-        triangles: usize,
+        /// Triangles, or spheres, given.
+        primitives: usize,
     },
 }
 

@@ -1,6 +1,7 @@
 //! Ray against triangle, watertight: two triangles that share an edge leave no gap between them
-//! (after Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, JCGT 2013). The twin of
-//! `shaders/include/ray.glsl`: same names, same operations in the same order.
+//! (after Woop, Benthin and Wald, Watertight Ray/Triangle Intersection, JCGT 2013); and ray against
+//! sphere, as exact where the sphere is small and far away. The twin of `shaders/include/ray.glsl`: same
+//! names, same operations in the same order.
 
 use glam::Vec3;
 
@@ -96,6 +97,54 @@ pub fn intersect_triangle(origin: Vec3, shear: &RayShear, vertices: &[[f32; 3]; 
     })
 }
 
+/// Where a ray meets a sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SphereHit {
+    /// Distance in lengths of the ray's direction.
+    pub t: f32,
+    /// From outside.
+    pub front: bool,
+}
+
+/// Where the ray meets the sphere first beyond `t_min`. `inverse` holds the direction's reciprocals.
+///
+/// The square of the half chord is taken from the ray's point nearest to the centre, and the nearer of
+/// two distances by the product of both, so that no digits cancel (Haines, Günther and Akenine-Möller,
+/// Precision Improvements for Ray/Sphere Intersection, Ray Tracing Gems, 2019, chapter 7).
+pub fn intersect_sphere(
+    origin: Vec3,
+    inverse: Vec3,
+    shear: &RayShear,
+    t_min: f32,
+    centre: Vec3,
+    radius: f32,
+) -> Option<SphereHit> {
+    // A direction whose longest component is 1: no length of the ray's own overflows.
+    let scale = (shear.depth.x + shear.depth.y + shear.depth.z).abs();
+    let direction = Vec3::splat(scale) / inverse;
+    let from = origin - centre;
+    let squared = dot_fused(direction, direction);
+    let towards = -dot_fused(from, direction);
+    let nearest = towards / squared;
+    let aside = Vec3::new(
+        nearest.mul_add(direction.x, from.x),
+        nearest.mul_add(direction.y, from.y),
+        nearest.mul_add(direction.z, from.z),
+    );
+    let half_chord_squared = radius.mul_add(radius, -dot_fused(aside, aside));
+    if half_chord_squared < 0.0 || half_chord_squared.is_nan() {
+        return None;
+    }
+    let root = (squared * half_chord_squared).sqrt();
+    let sum = if towards < 0.0 { towards - root } else { towards + root };
+    let product = radius.mul_add(-radius, dot_fused(from, from));
+    let (one, other) = (sum / squared, if sum == 0.0 { 0.0 } else { product / sum });
+    let near = one.min(other) * scale;
+    let far = one.max(other) * scale;
+    let front = near > t_min;
+    Some(SphereHit { t: if front { near } else { far }, front })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -150,6 +199,69 @@ mod tests {
             let met = (0..7).any(|i| meet(origin, direction, [centre, rim[i], rim[(i + 1) % 7]]).is_some());
             assert!(met, "{origin} {direction}");
         }
+    }
+
+    fn meet_sphere(origin: Vec3, direction: Vec3, centre: Vec3, radius: f32) -> Option<SphereHit> {
+        let inverse = crate::traverse::inverse_of(direction);
+        intersect_sphere(origin, inverse, &RayShear::new(direction), 0.0, centre, radius)
+    }
+
+    #[test]
+    fn spheres_are_met_from_outside_and_from_inside() {
+        let mut random = Random::new(4);
+        for _ in 0..5000 {
+            let (centre, radius) = (random.vec3() * 10.0, 0.1 + random.unit());
+            let outwards = random.vec3().normalize();
+            let target = centre + outwards * radius;
+            let direction = random.vec3().normalize();
+            let cosine = direction.dot(outwards);
+            if cosine.abs() < 0.1 {
+                continue;
+            }
+            // Forwards to the point from before it; within the sphere where that is where it comes from.
+            let chord = 2.0 * radius * cosine.abs();
+            let (back, front) = if cosine < 0.0 { (5.0, true) } else { (chord * 0.7, false) };
+            let scale = 0.25 + random.unit();
+            let hit = meet_sphere(target - direction * back, direction * scale, centre, radius).unwrap();
+            assert!((hit.t * scale - back).abs() < 2e-5, "{hit:?} {back}");
+            assert_eq!(hit.front, front);
+        }
+    }
+
+    #[test]
+    fn a_small_sphere_far_away_is_met_where_it_is() {
+        // Against f64, where the schoolbook's discriminant in f32 has lost all digits.
+        let mut random = Random::new(5);
+        let (centre, radius) = (Vec3::new(0.0, 0.0, -4096.0), 0.125f32);
+        for _ in 0..5000 {
+            let target = centre + random.vec3() * radius;
+            let direction = target.normalize();
+            let (d, c) = (direction.as_dvec3(), centre.as_dvec3());
+            let nearest = d.dot(c) / d.dot(d);
+            let half_squared = f64::from(radius).powi(2) - (d * nearest - c).length_squared();
+            let hit = meet_sphere(Vec3::ZERO, direction, centre, radius);
+            if half_squared.abs() > 1e-3 {
+                assert_eq!(hit.is_some(), half_squared > 0.0);
+            }
+            if half_squared > 1e-3 {
+                let expected = nearest - (half_squared / d.dot(d)).sqrt();
+                assert!((f64::from(hit.unwrap().t) - expected).abs() < 0.01, "{hit:?} {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn spheres_stand_extreme_lengths_and_what_is_no_number() {
+        for length in [1e-15f32, 1e15] {
+            let hit =
+                meet_sphere(Vec3::new(0.1, 0.2, 5.0), Vec3::new(1e-9, 1e-9, -1.0) * length, Vec3::ZERO, 1.0);
+            assert!((hit.unwrap().t * length - (5.0 - 0.95f32.sqrt())).abs() < 1e-5, "{hit:?}");
+        }
+        assert!(meet_sphere(Vec3::NAN, Vec3::ONE, Vec3::ZERO, 1.0).is_none());
+        assert!(meet_sphere(Vec3::ZERO, Vec3::splat(f32::NAN), Vec3::ZERO, 1.0).is_none());
+        // At the centre, every way is out.
+        let hit = meet_sphere(Vec3::ZERO, Vec3::new(0.0, 2.0, 0.0), Vec3::ZERO, 3.0);
+        assert_eq!(hit, Some(SphereHit { t: 1.5, front: false }));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The bytes that the shaders read. A structure is one array of 32-bit little-endian words: its
-//! nodes first (the root at word 0), then its leaf records, triangles in a bottom level (BLAS) or
-//! instances in a top level (TLAS). References inside are offsets from the structure's own start in
+//! nodes first (the root at word 0), then its leaf records, triangles and spheres in a bottom level
+//! (BLAS) or instances in a top level (TLAS). References inside are offsets from the structure's own start in
 //! [`UNIT_BYTES`]-byte units, so a structure can be copied to any 16-byte-aligned address.
 //! `shaders/include/bvh_node.glsl` is the reader; a test compares its constants with these.
 
@@ -39,6 +39,8 @@ pub const FLAG_ALPHA_TESTED: u32 = 1;
 pub const FLAG_TWO_SIDED: u32 = 2;
 /// Instance flag, set by the builder: both matrices are the identity.
 pub const FLAG_IDENTITY: u32 = 4;
+/// Triangle flag, set by the builder: the record is of a sphere.
+pub const FLAG_SPHERE: u32 = 8;
 
 /// A node of up to eight children, their boxes quantised to 8 bits on a grid of the node's own
 /// (Ylitie, Karras and Laine, Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
@@ -70,11 +72,12 @@ pub struct Node {
     pub high: [[u8; WIDTH]; 3],
 }
 
-/// A triangle of a bottom level. 48 bytes.
+/// A leaf record of a bottom level: a triangle, or where its flags say so a sphere. 48 bytes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Triangle {
-    /// Corners in object space, bit for bit the input's, so that shared edges stay shared (offset 0).
+    /// Corners in object space, bit for bit the input's, so that shared edges stay shared (offset 0). Of a
+    /// sphere its centre, then its radius and zeros.
     pub vertices: [[f32; 3]; 3],
     /// What a hit reports as its primitive (offset 36).
     pub primitive: u32,
@@ -82,6 +85,29 @@ pub struct Triangle {
     pub flags: u32,
     /// 0 (offset 44).
     pub reserved: u32,
+}
+
+impl Triangle {
+    /// The record of a sphere.
+    pub fn from_sphere(sphere: Sphere, primitive: u32, flags: u32) -> Self {
+        let vertices = [sphere.centre, [sphere.radius, 0.0, 0.0], [0.0; 3]];
+        Self { vertices, primitive, flags: flags | FLAG_SPHERE, reserved: 0 }
+    }
+
+    /// The sphere that this record is of, if it is of one.
+    pub fn sphere(&self) -> Option<Sphere> {
+        let [centre, [radius, ..], _] = self.vertices;
+        (self.flags & FLAG_SPHERE != 0).then_some(Sphere { centre, radius })
+    }
+}
+
+/// A sphere in object space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Its centre.
+    pub centre: [f32; 3],
+    /// Its radius.
+    pub radius: f32,
 }
 
 /// An instance of a top level. 112 bytes.
@@ -173,6 +199,7 @@ mod tests {
             ("FLAG_ALPHA_TESTED", FLAG_ALPHA_TESTED),
             ("FLAG_TWO_SIDED", FLAG_TWO_SIDED),
             ("FLAG_IDENTITY", FLAG_IDENTITY),
+            ("FLAG_SPHERE", FLAG_SPHERE),
         ] {
             let line = format!("const uint BVH_{name} = {value}u;");
             assert!(shader.contains(&line), "{line}");

@@ -7,7 +7,7 @@ use crate::encode::{set_child_bounds, start_node};
 use crate::layout::{NODE_UNITS, Node, TRIANGLE_UNITS, Triangle, WIDTH};
 
 impl Blas {
-    /// Moves every triangle to `corners(primitive)`, three of `positions`. Triangles are neither added
+    /// Moves every triangle, but no sphere, to `corners(primitive)`, three of `positions`. Triangles are neither added
     /// nor taken away: those left out by the build stay out, and one that cannot be hit any more
     /// (index or coordinate out of range, no area) stays where it was. Rays get slower the more the
     /// shape changes; [`crate::build_blas`] anew then.
@@ -15,7 +15,7 @@ impl Blas {
         let (nodes, triangles) = self.words.split_at_mut(self.node_count as usize * NODE_WORDS);
         let nodes: &mut [Node] = bytemuck::cast_slice_mut(nodes);
         let triangles: &mut [Triangle] = bytemuck::cast_slice_mut(triangles);
-        for triangle in triangles.iter_mut() {
+        for triangle in triangles.iter_mut().filter(|record| record.sphere().is_none()) {
             if let Some(moved) = corners_of(positions, &corners(triangle.primitive)) {
                 triangle.vertices = moved;
             }

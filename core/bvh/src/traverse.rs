@@ -1,10 +1,10 @@
 //! The reference traversal: the twin of `shaders/include/bvh.glsl`, step by step over the same words,
 //! so that a test of one is a test of the other.
 
-use crate::intersect::{RayShear, intersect_triangle};
+use crate::intersect::{RayShear, TriangleHit, intersect_sphere, intersect_triangle};
 use crate::layout::{
     FLAG_ALPHA_TESTED, FLAG_IDENTITY, INSTANCE_UNITS, InstanceRecord, MAX_STEPS, NODE_UNITS, Node,
-    STACK_ENTRIES, TRIANGLE_UNITS, Triangle, WIDTH, record,
+    STACK_ENTRIES, Sphere, TRIANGLE_UNITS, Triangle, WIDTH, record,
 };
 use glam::Vec3;
 
@@ -35,17 +35,18 @@ pub struct Query {
 pub struct Hit {
     /// Distance in lengths of the ray's direction.
     pub t: f32,
-    /// Weights of the second and third corner.
+    /// Weights of the second and third corner; 0 on a sphere.
     pub barycentrics: [f32; 2],
-    /// The triangle's number in its bottom level.
+    /// The number of the triangle or sphere in its bottom level.
     pub primitive: u32,
     /// The instance's id.
     pub instance: u32,
-    /// The corners run counter-clockwise as seen from the ray's origin, in object space.
+    /// The corners run counter-clockwise as seen from the ray's origin, in object space; of a sphere the
+    /// outside is met.
     pub front: bool,
 }
 
-/// Asked for alpha-tested triangles: (instance, primitive, barycentrics).
+/// Asked for alpha-tested triangles and spheres: (instance, primitive, barycentrics).
 pub type Accept<'a> = &'a dyn Fn(u32, u32, [f32; 2]) -> bool;
 
 /// A top level with the memory that its addresses mean.
@@ -73,23 +74,35 @@ const SLAB_ERROR: f32 = 4.768_371_6e-7; // 2^-21
 
 impl LocalRay {
     fn new(origin: Vec3, direction: Vec3) -> Self {
-        let away_from_zero = |d: f32| {
-            if d.abs() < LEAST_COMPONENT { LEAST_COMPONENT.copysign(d) } else { d }
-        };
-        let safe = Vec3::from(direction.to_array().map(away_from_zero));
+        let inverse = inverse_of(direction);
         let bit = |d: f32, value: u32| if d.is_sign_negative() { 0 } else { value };
         Self {
             origin,
-            inverse: safe.recip(),
+            inverse,
             shear: RayShear::new(direction),
-            order: bit(safe.x, 4) | bit(safe.y, 2) | bit(safe.z, 1),
+            order: bit(inverse.x, 4) | bit(inverse.y, 2) | bit(inverse.z, 1),
         }
+    }
+
+    /// Where the ray meets a triangle, or a sphere beyond `t_min`.
+    fn meet(&self, record: &Triangle, t_min: f32) -> Option<TriangleHit> {
+        let Some(Sphere { centre, radius }) = record.sphere() else {
+            return intersect_triangle(self.origin, &self.shear, &record.vertices);
+        };
+        intersect_sphere(self.origin, self.inverse, &self.shear, t_min, centre.into(), radius)
+            .map(|met| TriangleHit { t: met.t, barycentrics: [0.0; 2], front: met.front })
     }
 
     fn in_object(ray: &Ray, world_to_object: &[[f32; 4]; 3]) -> Self {
         let (origin, direction) = in_object(ray.origin, ray.direction, world_to_object);
         Self::new(origin, direction)
     }
+}
+
+/// Reciprocals of a direction's components as traversal has them, all of them finite.
+pub fn inverse_of(direction: Vec3) -> Vec3 {
+    let away_from_zero = |d: f32| if d.abs() < LEAST_COMPONENT { LEAST_COMPONENT.copysign(d) } else { d };
+    Vec3::from(direction.to_array().map(away_from_zero)).recip()
 }
 
 /// Origin and direction of a ray in object space, as traversal has them.
@@ -244,7 +257,7 @@ impl<'a> Walk<'a> {
         let Some(triangle) = record::<Triangle>(self.words, place) else {
             return;
         };
-        let met = intersect_triangle(self.ray.origin, &self.ray.shear, &triangle.vertices);
+        let met = self.ray.meet(&triangle, ray.t_min);
         let Some(met) = met.filter(|met| met.t > ray.t_min && met.t <= self.t_max) else {
             return;
         };

@@ -4,9 +4,9 @@
 
 mod support;
 
-use afterglow_bvh::intersect::{RayShear, intersect_triangle};
-use afterglow_bvh::layout::{FLAG_ALPHA_TESTED, FLAG_TWO_SIDED};
-use afterglow_bvh::traverse::in_object;
+use afterglow_bvh::intersect::{RayShear, TriangleHit, intersect_sphere, intersect_triangle};
+use afterglow_bvh::layout::{FLAG_ALPHA_TESTED, FLAG_TWO_SIDED, Sphere, Triangle};
+use afterglow_bvh::traverse::{in_object, inverse_of};
 use afterglow_bvh::{
     BlasInput, Hit, IDENTITY, Instance, Quality, Query, Ray, TriangleAttributes, build_blas, build_blas_with,
     build_tlas,
@@ -15,11 +15,19 @@ use glam::Vec3;
 use proptest::prelude::*;
 use support::{World, accept};
 
-/// A triangle soup and where rays should aim.
+/// A soup of triangles and spheres.
 #[derive(Clone, Debug)]
 struct Soup {
     positions: Vec<[f32; 3]>,
     indices: Vec<[u32; 3]>,
+    spheres: Vec<[f32; 4]>,
+}
+
+impl Soup {
+    fn input<'a>(&'a self, attributes: &'a [TriangleAttributes]) -> BlasInput<'a> {
+        let Self { positions, indices, spheres } = self;
+        BlasInput { positions, indices, attributes, spheres, sphere_attributes: &[] }
+    }
 }
 
 fn point(scale: f32) -> impl Strategy<Value = Vec3> {
@@ -50,13 +58,26 @@ fn triangle() -> impl Strategy<Value = Vec<Vec3>> {
     prop_oneof![corners(2.0), corners(1e-4), corners(30.0), sliver, flat]
 }
 
+/// Small and large ones, and some of which a grid's rays graze the poles.
+fn sphere() -> impl Strategy<Value = [f32; 4]> {
+    let free = |radius: f32| {
+        (point(10.0), 0.01f32..1.0).prop_map(move |(at, share)| at.extend(radius * share).to_array())
+    };
+    let on_grid = ([-4i32..=4, -4i32..=4, -4i32..=4], 1i32..=3)
+        .prop_map(|([x, y, z], radius)| [x, y, z, radius].map(|number| number as f32));
+    prop_oneof![free(3.0), free(1e-3), free(30.0), on_grid]
+}
+
 fn soup(most: usize) -> impl Strategy<Value = Soup> {
-    (prop::collection::vec(triangle(), 1..most), 1usize..3).prop_map(|(triangles, copies)| {
+    let spheres = prop::collection::vec(sphere(), 0..most / 4);
+    let triangles = prop::collection::vec(triangle(), 1..most);
+    (triangles, spheres, 1usize..3).prop_map(|(triangles, spheres, copies)| {
         let corners: Vec<[f32; 3]> = triangles.concat().iter().map(Vec3::to_array).collect();
         let count = corners.len() as u32 / 3;
         // Copies lie upon one another exactly.
         let indices = (0..count * copies as u32).map(|i| (i % count) * 3);
-        Soup { indices: indices.map(|i| [i, i + 1, i + 2]).collect(), positions: corners }
+        let indices = indices.map(|i| [i, i + 1, i + 2]).collect();
+        Soup { indices, positions: corners, spheres: spheres.repeat(copies) }
     })
 }
 
@@ -88,7 +109,26 @@ fn transform() -> impl Strategy<Value = [[f32; 4]; 3]> {
     prop_oneof![Just(IDENTITY), general]
 }
 
-/// The hit found by trying every triangle.
+/// Where a ray meets a leaf record.
+fn meet(
+    origin: Vec3,
+    direction: Vec3,
+    shear: &RayShear,
+    t_min: f32,
+    record: &Triangle,
+) -> Option<TriangleHit> {
+    let Some(Sphere { centre, radius }) = record.sphere() else {
+        return intersect_triangle(origin, shear, &record.vertices);
+    };
+    let inverse = inverse_of(direction);
+    intersect_sphere(origin, inverse, shear, t_min.max(0.0), centre.into(), radius).map(|met| TriangleHit {
+        t: met.t,
+        barycentrics: [0.0; 2],
+        front: met.front,
+    })
+}
+
+/// The hit found by trying every triangle and sphere.
 fn trace_without_tree(world: &World, ray: &Ray, mask: u32) -> Option<Hit> {
     let mut best: Option<Hit> = None;
     for instance in world.tlas.instances() {
@@ -99,7 +139,7 @@ fn trace_without_tree(world: &World, ray: &Ray, mask: u32) -> Option<Hit> {
         let (origin, direction) = in_object(ray.origin, ray.direction, &instance.world_to_object);
         let shear = RayShear::new(direction);
         for triangle in blas.triangles() {
-            let Some(met) = intersect_triangle(origin, &shear, &triangle.vertices) else {
+            let Some(met) = meet(origin, direction, &shear, ray.t_min, triangle) else {
                 continue;
             };
             let key = (instance.id, triangle.primitive);
@@ -142,7 +182,7 @@ proptest! {
     #[test]
     fn one_level(soup in soup(60), rays in prop::collection::vec(ray(), 30)) {
         for quality in [Quality::Fast, Quality::Good] {
-            let blas = build_blas(&soup.positions, &soup.indices, quality).unwrap();
+            let blas = build_blas_with(&soup.input(&[]), quality).unwrap();
             let tlas = build_tlas(&[instance(&blas, 16)]).unwrap();
             check(&World { tlas, blases: [(16, blas)].into() }, &rays, 1)?;
         }
@@ -151,7 +191,7 @@ proptest! {
     #[test]
     fn refitted(soup in soup(60), moved in soup(60), rays in prop::collection::vec(ray(), 30)) {
         // The triangles of one soup in the tree of another.
-        let mut blas = build_blas(&soup.positions, &soup.indices, Quality::Good).unwrap();
+        let mut blas = build_blas_with(&soup.input(&[]), Quality::Good).unwrap();
         blas.refit(&moved.positions, |primitive| [0, 1, 2].map(|corner| primitive * 3 + corner));
         let tlas = build_tlas(&[instance(&blas, 16)]).unwrap();
         check(&World { tlas, blases: [(16, blas)].into() }, &rays, 1)?;
@@ -165,11 +205,12 @@ proptest! {
         mask in 1u32..256,
     ) {
         let blases: Vec<_> = soups.iter().enumerate().map(|(number, soup)| {
-            let attributes: Vec<_> = (0..soup.indices.len() as u32).map(|i| TriangleAttributes {
+            let attributes: Vec<_> = (0..(soup.indices.len() + soup.spheres.len()) as u32).map(|i| TriangleAttributes {
                 primitive: 1000 * number as u32 + i,
                 flags: if i % 5 == 0 { FLAG_ALPHA_TESTED } else { 0 },
             }).collect();
-            let input = BlasInput { positions: &soup.positions, indices: &soup.indices, attributes: &attributes };
+            let (attributes, of_spheres) = attributes.split_at(soup.indices.len());
+            let input = BlasInput { sphere_attributes: of_spheres, ..soup.input(attributes) };
             (16 * number as u64, build_blas_with(&input, Quality::Fast).unwrap())
         }).collect();
         let instances: Vec<_> = places.iter().zip(0..).map(|(&(blas, object_to_world, mask, flags), id)| {

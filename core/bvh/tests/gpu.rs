@@ -7,7 +7,10 @@ mod gpu;
 mod support;
 
 use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
-use afterglow_bvh::{Blas, Hit, IDENTITY, Instance, Quality, Query, Ray, build_blas, build_tlas};
+use afterglow_bvh::{
+    Blas, BlasInput, Hit, IDENTITY, Instance, Quality, Query, Ray, TriangleAttributes, build_blas,
+    build_blas_with, build_tlas,
+};
 use glam::{Mat4, Quat, Vec3};
 use gpu::{Answer, RayRecord, Search, Tracer};
 use support::World;
@@ -106,6 +109,44 @@ fn one_identity_instance() {
             mask: 1,
             flags: 0,
         }]
+    });
+}
+
+/// Spheres hang in the room, some cut by its walls and by one another.
+#[test]
+fn spheres_among_triangles() {
+    let (positions, indices) = support::room::room(6);
+    let spheres: Vec<[f32; 4]> = (0..150)
+        .map(|i| {
+            let at = Vec3::new(spread(i, 0), spread(i, 1), spread(i, 2)) * 18.0 - 9.0;
+            at.extend(0.05 + spread(i, 3) * if i % 10 == 0 { 3.0 } else { 0.8 }).to_array()
+        })
+        .collect();
+    let flags = |i: u32| if i.is_multiple_of(7) { FLAG_ALPHA_TESTED } else { 0 };
+    let first = indices.len() as u32;
+    let attributes: Vec<TriangleAttributes> =
+        (0..150).map(|i| TriangleAttributes { primitive: first + i, flags: flags(i) }).collect();
+    let input = BlasInput {
+        positions: &positions,
+        indices: &indices,
+        spheres: &spheres,
+        sphere_attributes: &attributes,
+        ..BlasInput::default()
+    };
+    let blas = build_blas_with(&input, Quality::Good).unwrap();
+    check(vec![blas], |blases| {
+        let (address, blas) = blases[0];
+        let turn = Mat4::from_rotation_y(0.4).transpose();
+        let rows = [0, 1, 2].map(|row| turn.col(row).to_array());
+        let instance = Instance {
+            object_to_world: IDENTITY,
+            blas: address,
+            bounds: blas.bounds,
+            id: 5,
+            mask: 1,
+            flags: 0,
+        };
+        vec![instance, Instance { object_to_world: rows, id: 6, mask: 2, ..instance }]
     });
 }
 

@@ -89,20 +89,40 @@ impl Meshes {
         input: &MeshInput<'_>,
         arena: &mut UploadArena,
     ) -> Result<(), GpuError> {
-        let Shapes::Triangles { corners, members } = input.shapes else {
-            return Ok(());
-        };
-        let attributes = attributes(members);
-        let indices: Vec<[u32; 3]> = (0..attributes.len() as u32)
-            .map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2])
-            .collect();
-        let quality = match input.is_lasting && attributes.len() <= MOST_IMPROVED {
-            true => Quality::Good,
-            false => Quality::Fast,
-        };
-        self.built += attributes.len();
-        let input = BlasInput { positions: corners, indices: &indices, attributes: &attributes };
-        let blas = build_blas_with(&input, quality)
+        match input.shapes {
+            Shapes::Triangles { corners, members } => {
+                let attributes = attributes(members);
+                let indices: Vec<[u32; 3]> = (0..attributes.len() as u32)
+                    .map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2])
+                    .collect();
+                let quality = match input.is_lasting && attributes.len() <= MOST_IMPROVED {
+                    true => Quality::Good,
+                    false => Quality::Fast,
+                };
+                let input = BlasInput {
+                    positions: corners,
+                    indices: &indices,
+                    attributes: &attributes,
+                    ..BlasInput::default()
+                };
+                self.insert(content, &input, quality, arena)
+            }
+            Shapes::Spheres(spheres) => {
+                let input = BlasInput { spheres, ..BlasInput::default() };
+                self.insert(content, &input, Quality::Fast, arena)
+            }
+        }
+    }
+
+    fn insert(
+        &mut self,
+        content: u64,
+        input: &BlasInput<'_>,
+        quality: Quality,
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        self.built += input.indices.len() + input.spheres.len();
+        let blas = build_blas_with(input, quality)
             .map_err(|error| tracing::warn!("a mesh is left out: {error}"))
             .ok()
             .filter(|blas| blas.triangle_count > 0);

@@ -28,7 +28,7 @@ pub(crate) struct MeshInput<'a> {
 pub(crate) enum Shapes<'a> {
     /// Three corners a triangle, the members' triangles one after another.
     Triangles { corners: &'a [[f32; 3]], members: &'a [Member] },
-    /// Centre and radius of each. As a mesh's only instance stands where they are in the world, its matrix is the identity.
+    /// Centre and radius of each; instances may be moved, but nothing else.
     Spheres(&'a [[f32; 4]]),
 }
 

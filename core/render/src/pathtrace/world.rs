@@ -3,7 +3,6 @@
 //! A draw of a retained range is a mesh of its own, built once; so is a block of remembered ones. Other draws change, or are sent anew with every
 //! frame: those that share a matrix are one mesh, built again when any of them has changed.
 
-use afterglow_bvh::IDENTITY;
 use afterglow_gl::frame::{Draw, Frame, VertexSource};
 use afterglow_gpu::{Gpu, GpuError};
 use afterglow_records::{MASK_STATIC, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MeshMember};
@@ -13,7 +12,7 @@ use xxhash_rust::xxh3::{Xxh3, xxh3_64_with_seed};
 
 use super::backend::Backend;
 use super::geometry::{GeometryReader, Triangles};
-use super::lights::LightList;
+use super::lights::{Lamps, LightList};
 use super::structures::{Member, MeshInput, Placed, Shapes, Structures};
 use crate::uploads::UploadArena;
 
@@ -21,8 +20,8 @@ use crate::uploads::UploadArena;
 const MOST_TRIANGLES: u32 = 1 << MEMBER_SHIFT;
 const MOST_MEMBERS: usize = 1 << (32 - MEMBER_SHIFT);
 
-/// Tells spheres from triangles with the same bytes.
-const SPHERES_SEED: u64 = 1;
+/// Seed of the hash of lamps: no draw has the same.
+const LAMPS: u64 = 0x6c61_6d70;
 
 /// A traced draw.
 #[derive(Debug, Clone)]
@@ -115,7 +114,11 @@ impl WorldBuilder {
                 members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
             }
         }
-        self.add_spheres(lights, &mut members, &mut placed, arena)?;
+        if let Some(lamps) = self.lamps(&lights.lamps, origin, members.len(), arena)? {
+            placed.push(lamps);
+            let first = lights.lamps.first_light as u32;
+            members.push(MeshMember { draw: MEMBER_OF_LIGHTS | first, first_triangle: 0 });
+        }
         let top = self.structures.top_level(&placed, arena)?;
         Ok(World {
             top_level: top.address,
@@ -151,37 +154,28 @@ impl WorldBuilder {
         self.structures.build(content, &MeshInput { shapes, is_lasting: group.is_lasting }, arena)
     }
 
-    /// Adds the lights that are spheres as one mesh; they are relative to the origin already.
-    fn add_spheres(
+    /// The lights that are spheres, as one instance; `member` is the number of what its hits name.
+    fn lamps(
         &mut self,
-        lights: &LightList,
-        members: &mut Vec<MeshMember>,
-        placed: &mut Vec<Placed>,
+        lamps: &Lamps,
+        origin: DVec3,
+        member: usize,
         arena: &mut UploadArena,
-    ) -> Result<(), GpuError> {
-        let sources = lights.sources.get(lights.spheres.clone()).unwrap_or_default();
-        if sources.is_empty() || sources.len() > MOST_TRIANGLES as usize {
-            return Ok(());
+    ) -> Result<Option<Placed>, GpuError> {
+        if lamps.spheres.is_empty() || lamps.spheres.len() > MOST_TRIANGLES as usize {
+            return Ok(None);
         }
-        let spheres: Vec<_> = sources
-            .iter()
-            .map(|source| {
-                let [x, y, z] = source.position;
-                [x, y, z, source.radius]
-            })
-            .collect();
-        let content = xxh3_64_with_seed(bytemuck::cast_slice(&spheres), SPHERES_SEED);
+        let content = xxh3_64_with_seed(bytemuck::cast_slice(&lamps.spheres), LAMPS);
         if !self.structures.has(content) {
-            let input = MeshInput { shapes: Shapes::Spheres(&spheres), is_lasting: false };
+            let input = MeshInput { shapes: Shapes::Spheres(&lamps.spheres), is_lasting: true };
             self.structures.build(content, &input, arena)?;
         }
-        if self.structures.take(content) {
-            let mask = MASK_STATIC as u8;
-            placed.push(Placed { content, object_to_world: IDENTITY, id: members.len() as u32, mask });
-            members
-                .push(MeshMember { draw: MEMBER_OF_LIGHTS | lights.spheres.start as u32, first_triangle: 0 });
-        }
-        Ok(())
+        Ok(self.structures.take(content).then(|| Placed {
+            content,
+            object_to_world: relative(&Mat4::IDENTITY, origin - lamps.anchor),
+            id: member as u32,
+            mask: MASK_STATIC as u8,
+        }))
     }
 }
 

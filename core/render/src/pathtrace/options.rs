@@ -6,6 +6,8 @@ use afterglow_records::Paint;
 use afterglow_scene::{Class, MEMORY_BYTES, Profile, ProgramCache, Relighting, Replacing};
 use glam::Vec3;
 
+use super::backend::Backend;
+
 /// What a frame becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Mode {
@@ -67,6 +69,8 @@ pub enum Displaced {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PathtraceOptions {
+    /// What traces rays.
+    pub backend: Backend,
     /// How far light is followed in [`Mode::Reference`].
     pub target: Target,
     /// Surfaces that a path may scatter at in [`Mode::Pathtrace`], the seen one included. Light that comes by more is missing,
@@ -113,6 +117,7 @@ pub struct PathtraceOptions {
 impl Default for PathtraceOptions {
     fn default() -> Self {
         Self {
+            backend: Backend::Software,
             target: Target::Full,
             surfaces: 2,
             light_choice: LightChoice::Resampled,

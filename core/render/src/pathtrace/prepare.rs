@@ -6,11 +6,11 @@ use afterglow_scene::Camera;
 use bytemuck::Zeroable;
 use glam::Vec3;
 
+use super::backend::Backend;
 use super::buffers::{ViewBuffers, sum_count};
 use super::change::{ChangeHasher, History, changes_textures};
 use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
-use super::meshes::MeshCopy;
 use super::options::Mode;
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
@@ -40,7 +40,9 @@ pub(crate) struct PreparedTrace {
     /// What each draw of the frame leaves in the visibility buffer.
     pub(crate) marks: Vec<DrawMark>,
     pub(crate) views: Vec<PreparedView>,
-    pub(crate) copies: Vec<MeshCopy>,
+    pub(crate) backend: Backend,
+    /// The world must be brought to the device.
+    pub(crate) has_builds: bool,
     pub(crate) counts: TraceCounts,
 }
 
@@ -76,7 +78,7 @@ pub(crate) fn prepare(
     camera: &Camera,
     size: [u32; 2],
 ) -> Result<PreparedTrace, GpuError> {
-    tracer.world.begin_frame();
+    tracer.world.begin_frame()?;
     let origin = camera.view.inverse().w_axis.truncate();
     let geometry = &mut tracer.world.geometry;
     let mut surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
@@ -101,12 +103,13 @@ pub(crate) fn prepare(
     Ok(PreparedTrace {
         marks: surfaces.marks,
         views,
-        copies: tracer.world.meshes().copies.clone(),
+        backend: tracer.options.backend,
+        has_builds: tracer.world.structures().has_work(),
         counts: TraceCounts {
             traced_draws: surfaces.seen,
             unseen: surfaces.traced.len() - surfaces.seen,
             instances: world.instances as usize,
-            built_triangles: tracer.world.meshes().built,
+            built_triangles: tracer.world.structures().built(),
             lights: common.record.light_count as usize,
             samples: tracer.history.first().map_or(0, |history| history.samples() as usize),
         },
@@ -141,7 +144,7 @@ impl Tracer {
                 members: world.members,
                 lights: address(input.arena.push_table(&surfaces.lights.sources))?,
                 light_nodes: address(input.arena.push_table(&surfaces.lights.nodes))?,
-                world: world.tlas,
+                world: world.top_level,
                 width: size[0],
                 height: size[1],
                 far_count: surfaces.lights.far_count as u32,

@@ -2,6 +2,7 @@
 
 use afterglow_frame_graph::{GraphBuilder, ResourceId};
 
+use super::backend::Backend;
 use super::buffers::ViewBuffers;
 use crate::passes::{build, composite, exposure, filter, light, reference, surface};
 use crate::schedule::Resources;
@@ -58,6 +59,8 @@ pub(crate) const IDLE_REASON: &str = "nothing moves among surfaces with baked li
 /// The graph's resources that belong to views.
 #[derive(Debug, Clone)]
 pub(crate) struct ViewResources {
+    /// What shoots rays.
+    pub(crate) backend: Backend,
     pub(crate) visibility: ResourceId,
     pub(crate) albedo: ResourceId,
     pub(crate) world: ResourceId,
@@ -77,6 +80,7 @@ impl ViewResources {
         graph: &mut GraphBuilder,
         buffers: &ViewBuffers,
         world: afterglow_frame_graph::ResourceState,
+        backend: Backend,
     ) -> Self {
         use afterglow_frame_graph::{Format, ImageDesc, ResourceDesc};
         let visibility = &buffers.visibility;
@@ -90,6 +94,7 @@ impl ViewResources {
             graph.import(name, ResourceDesc::Buffer { bytes }, tracked.state)
         };
         let resources = Self {
+            backend,
             visibility,
             albedo,
             world,
@@ -123,11 +128,11 @@ pub(crate) fn declare_view(
     views: &ViewResources,
     view: usize,
     needs: &ViewNeeds,
-    has_new_meshes: bool,
+    has_builds: bool,
 ) {
     if view == 0 {
         work.push(TraceWork::Build);
-        build::declare(graph, views, has_new_meshes);
+        build::declare(graph, views, has_builds);
         work.push(TraceWork::ClearCounters);
         light::declare_clear(graph, views);
     }

@@ -81,34 +81,55 @@ impl Tracer {
             tracing::warn!("the device cannot number triangles: frames are rasterized");
             return Ok(None);
         }
-        let pipelines = Arc::new(TracePipelines::new(gpu, table)?);
-        Ok(Some(Self::with(gpu, mode, options, pipelines)))
+        let pipelines = Arc::new(TracePipelines::new(gpu, table, options.backend)?);
+        Self::with(gpu, mode, options, pipelines).map(Some)
     }
 
     /// Traces otherwise from now on.
-    pub(crate) fn set_options(&mut self, mode: Mode, options: &PathtraceOptions) {
+    ///
+    /// # Errors
+    /// If the device lacks another backend that is asked for: nothing has changed then.
+    pub(crate) fn set_options(
+        &mut self,
+        gpu: &Gpu,
+        table: &BindlessTable,
+        mode: Mode,
+        options: &PathtraceOptions,
+    ) -> Result<(), GpuError> {
+        if options.backend != self.options.backend {
+            let world = WorldBuilder::new(gpu, options.backend)?;
+            self.pipelines = Arc::new(TracePipelines::new(gpu, table, options.backend)?);
+            self.world = world;
+        }
         self.mode = mode;
         self.options = options.clone();
         self.recovery.set_memory(options.memory_bytes);
+        Ok(())
     }
 
     /// For another window of the same renderer.
-    pub(crate) fn beside(&self, gpu: &Gpu) -> Self {
+    pub(crate) fn beside(&self, gpu: &Gpu) -> Result<Self, GpuError> {
         Self::with(gpu, self.mode, self.options.clone(), self.pipelines.clone())
     }
 
-    fn with(gpu: &Gpu, mode: Mode, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
+    fn with(
+        gpu: &Gpu,
+        mode: Mode,
+        options: PathtraceOptions,
+        pipelines: Arc<TracePipelines>,
+    ) -> Result<Self, GpuError> {
+        let world = WorldBuilder::new(gpu, options.backend)?;
         let mut recovery = Recovery::with_profile(options.profile.clone())
             .with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);
         if let Some(cache) = &options.cache {
             recovery.set_cache(cache);
         }
-        Self {
+        Ok(Self {
             mode,
             options,
             recovery,
-            world: WorldBuilder::new(gpu),
+            world,
             world_state: ResourceState::SETTLED,
             pipelines,
             buffers: None,
@@ -118,7 +139,7 @@ impl Tracer {
             parts: Parts::None,
             has_begun_unseen: false,
             before: None,
-        }
+        })
     }
 
     /// Judges a frame, and puts it in order if it has a world.

@@ -14,6 +14,7 @@ mod estimator;
 mod gather;
 mod geometry;
 mod hardware;
+mod kept;
 mod light_cone;
 mod light_tree;
 mod lights;

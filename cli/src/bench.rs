@@ -2,6 +2,7 @@
 
 mod gl;
 mod gl_client;
+mod rays;
 mod scene;
 mod xlib;
 
@@ -20,6 +21,8 @@ pub struct Arguments {
 enum What {
     /// What OpenGL calls cost a program's thread, beside Mesa's front end with nothing behind it. Needs an X server.
     Gl(gl::Arguments),
+    /// Rays a second through the structures that light is traced in, and what building them costs.
+    Rays(rays::Arguments),
     /// What understanding frames costs, beside playing and copying them: of traces, and of worlds that grow.
     Scene(scene::Arguments),
     /// One side of `gl`: measures the libGL that is found first, and prints the figures as JSON.
@@ -31,6 +34,7 @@ enum What {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.what {
         What::Gl(arguments) => gl::run(arguments),
+        What::Rays(arguments) => rays::run(arguments),
         What::Scene(arguments) => scene::run(arguments),
         What::GlClient(arguments) => gl_client::run(arguments),
     }

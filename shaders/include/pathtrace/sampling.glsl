@@ -88,7 +88,7 @@ float balance(float own, float other) {
 // With exponent 2; of ratios, since squares of densities overflow.
 float power_heuristic(float own, float other) {
     float greater = max(own, other);
-    if (!(greater >= LEAST_DENSITY)) {
+    if (greater < LEAST_DENSITY) {
         return 0.0;
     }
     float own_share = own / greater;

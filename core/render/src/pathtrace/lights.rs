@@ -23,14 +23,53 @@ pub(crate) struct ShiningTriangle {
     pub(crate) is_one_sided: bool,
 }
 
+/// Lights that are spheres and that rays meet.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub(crate) struct Lamps {
+    /// Number of the first one among the lights; the others follow.
+    pub(crate) first_light: usize,
+    /// A place near them, world space.
+    pub(crate) anchor: DVec3,
+    /// Their middles relative to the anchor, and their radii.
+    pub(crate) spheres: Vec<[f32; 4]>,
+}
+
+impl Lamps {
+    /// Of the scene's lights, in the order of the list.
+    fn of(lights: &[SceneLight], first_light: usize, displaced: impl Fn(usize) -> Vec3) -> Self {
+        let place = |(index, light): (usize, &SceneLight)| match light.shape {
+            LightShape::Point { position, radius, .. } => {
+                Some(((position + displaced(index)).as_dvec3(), radius))
+            }
+            LightShape::Directional { .. } => None,
+        };
+        let is_lamp = |(_, light): &(usize, &SceneLight)| {
+            is_lamp(light) && is_sound(&light_source(light, DVec3::ZERO, Vec3::ZERO))
+        };
+        let places: Vec<_> = lights.iter().enumerate().filter(is_lamp).filter_map(place).collect();
+        let anchor = places.first().map_or(DVec3::ZERO, |(position, _)| *position);
+        let relative = |(position, radius): &(DVec3, f32)| {
+            let [x, y, z] = (*position - anchor).as_vec3().to_array();
+            [x, y, z, *radius]
+        };
+        Self { first_light, anchor, spheres: places.iter().map(relative).collect() }
+    }
+}
+
+/// Whether a light is a sphere that rays meet.
+fn is_lamp(light: &SceneLight) -> bool {
+    let has_radius = matches!(light.shape, LightShape::Point { radius, .. } if radius > 0.0);
+    light.origin == LightOrigin::SceneFile && has_radius
+}
+
 /// All lights of a frame.
 #[derive(Debug, Default)]
 pub(crate) struct LightList {
     pub(crate) sources: Vec<LightSource>,
     pub(crate) nodes: Vec<LightNode>,
     pub(crate) far_count: usize,
-    /// The spheres that rays meet: numbers of lights.
-    pub(crate) spheres: std::ops::Range<usize>,
+    /// The spheres that rays meet.
+    pub(crate) lamps: Lamps,
     /// Number of the first triangle.
     pub(crate) first_triangle: usize,
 }
@@ -57,10 +96,10 @@ impl LightList {
         let far_count = far.min(MOST_FAR);
         sources.drain(far_count..far);
         let first_triangle = sources.len();
-        let spheres = first_triangle - count_of(&sources, LIGHT_SPHERE)..first_triangle;
+        let lamps = Lamps::of(lights, first_triangle - count_of(&sources, LIGHT_SPHERE), displacement);
         sources.extend(triangles.iter().take(MOST_TRIANGLES).map(triangle_source));
         let nodes = light_tree::build(&mut sources, far_count);
-        Self { sources, nodes, far_count, spheres, first_triangle }
+        Self { sources, nodes, far_count, lamps, first_triangle }
     }
 }
 
@@ -91,7 +130,7 @@ fn light_source(light: &SceneLight, origin: DVec3, displacement: Vec3) -> LightS
         LightShape::Point { position, radius, attenuation, spot } => {
             let place = (position + displacement).as_dvec3() - origin;
             let (axis, cos_cutoff, exponent) = spot.unwrap_or((Vec3::ZERO, -1.0, 0.0));
-            let is_sphere = light.origin == LightOrigin::SceneFile && radius > 0.0;
+            let is_sphere = is_lamp(light);
             LightSource {
                 position: place.as_vec3().to_array(),
                 radius,
@@ -159,7 +198,8 @@ mod tests {
         let list = LightList::new(&scene, &[triangle; 2], DVec3::ZERO, None);
         let kinds: Vec<_> = list.sources.iter().map(|source| source.kind).collect();
         assert_eq!(kinds, [LIGHT_FAR, LIGHT_POINT, LIGHT_SPHERE, LIGHT_TRIANGLE, LIGHT_TRIANGLE]);
-        assert_eq!((list.far_count, list.spheres.clone(), list.first_triangle), (1, 2..3, 3));
+        assert_eq!((list.far_count, list.lamps.first_light, list.first_triangle), (1, 2, 3));
+        assert_eq!((list.lamps.anchor, &list.lamps.spheres[..]), (DVec3::X, &[[0.0, 0.0, 0.0, 0.5]][..]));
         // Radiance of what brings 1 to a facing surface one unit away.
         assert_eq!(list.sources[2].color, [4.0; 3]);
         assert_eq!(list.nodes.len(), 7);

@@ -95,8 +95,29 @@ impl Meshes {
             false => Quality::Fast,
         };
         let input = BlasInput { positions: corners, indices: &indices, attributes, ..BlasInput::default() };
-        self.built += attributes.len();
-        let blas = build_blas_with(&input, quality)
+        self.insert(content, &input, quality, arena)
+    }
+
+    /// Builds a mesh of spheres: middles and radii. A hit's primitive is the sphere's number.
+    pub(crate) fn build_spheres(
+        &mut self,
+        content: u64,
+        spheres: &[[f32; 4]],
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        let input = BlasInput { spheres, ..BlasInput::default() };
+        self.insert(content, &input, Quality::Fast, arena)
+    }
+
+    fn insert(
+        &mut self,
+        content: u64,
+        input: &BlasInput<'_>,
+        quality: Quality,
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        self.built += input.indices.len();
+        let blas = build_blas_with(input, quality)
             .map_err(|error| tracing::warn!("a mesh is left out: {error}"))
             .ok()
             .filter(|blas| blas.triangle_count > 0);

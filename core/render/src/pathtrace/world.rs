@@ -7,19 +7,22 @@ use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
 use afterglow_bvh::{Instance, TriangleAttributes, build_tlas};
 use afterglow_gl::frame::{Draw, Frame, VertexSource};
 use afterglow_gpu::{Gpu, GpuError};
-use afterglow_records::{MEMBER_SHIFT, MeshMember};
+use afterglow_records::{MASK_STATIC, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MeshMember};
 use glam::{DVec3, Mat4};
 use hashbrown::HashMap;
-use xxhash_rust::xxh3::Xxh3;
+use xxhash_rust::xxh3::{Xxh3, xxh3_64_with_seed};
 
 use super::geometry::{GeometryReader, Triangles};
-use super::lights::LightList;
+use super::lights::{Lamps, LightList};
 use super::meshes::Meshes;
 use crate::uploads::UploadArena;
 
 /// Triangles of a member, and members of a mesh, that a hit's primitive can name.
 const MOST_TRIANGLES: u32 = 1 << MEMBER_SHIFT;
 const MOST_MEMBERS: usize = 1 << (32 - MEMBER_SHIFT);
+
+/// Seed of the hash of lamps: no draw has the same.
+const LAMPS: u64 = 0x6c61_6d70;
 
 /// A traced draw.
 #[derive(Debug, Clone)]
@@ -84,7 +87,7 @@ impl WorldBuilder {
         &mut self,
         frame: &Frame,
         traced: &[Traced<'_>],
-        _lights: &LightList,
+        lights: &LightList,
         origin: DVec3,
         arena: &mut UploadArena,
     ) -> Result<World, GpuError> {
@@ -106,6 +109,11 @@ impl WorldBuilder {
             });
             members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
         }
+        if let Some(instance) = self.lamps(&lights.lamps, origin, members.len(), arena)? {
+            instances.push(instance);
+            let first = lights.lamps.first_light as u32;
+            members.push(MeshMember { draw: MEMBER_OF_LIGHTS | first, first_triangle: 0 });
+        }
         let tlas = match build_tlas(&instances) {
             Ok(tlas) => tlas,
             Err(error) => {
@@ -123,6 +131,32 @@ impl WorldBuilder {
                 false => (tlas.bounds.max - tlas.bounds.min).max_element(),
             },
         })
+    }
+
+    /// The lights that are spheres, as one instance; `member` is the number of what its hits name.
+    fn lamps(
+        &mut self,
+        lamps: &Lamps,
+        origin: DVec3,
+        member: usize,
+        arena: &mut UploadArena,
+    ) -> Result<Option<Instance>, GpuError> {
+        if lamps.spheres.is_empty() {
+            return Ok(None);
+        }
+        let content = xxh3_64_with_seed(bytemuck::cast_slice(&lamps.spheres), LAMPS);
+        if !self.meshes.has(content) {
+            self.meshes.build_spheres(content, &lamps.spheres, arena)?;
+        }
+        let mesh = self.meshes.get(content);
+        Ok(mesh.map(|mesh| Instance {
+            object_to_world: relative(&Mat4::IDENTITY, origin - lamps.anchor),
+            blas: mesh.address,
+            bounds: mesh.bounds,
+            id: member as u32,
+            mask: MASK_STATIC as u8,
+            flags: 0,
+        }))
     }
 
     fn build_mesh(

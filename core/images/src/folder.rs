@@ -8,7 +8,7 @@ use std::thread;
 use crate::name::FileName;
 use crate::picture::Picture;
 use crate::read::Abilities;
-use crate::worker::Worker;
+use crate::worker::{Request, Worker};
 
 /// Pictures that wait to be taken; the thread goes on when there are fewer.
 const MOST_WAITING: usize = 4;
@@ -25,7 +25,7 @@ pub enum Arrival {
 /// A folder of replacements. The thread ends some time after this is dropped.
 #[derive(Debug)]
 pub struct Folder {
-    requests: Sender<u64>,
+    requests: Sender<Request>,
     arrivals: Receiver<Arrival>,
 }
 
@@ -45,7 +45,12 @@ impl Folder {
     /// Asks for what replaces the texture with this hash. Later changes of its files arrive unasked.
     pub fn ask(&self, hash: u64) {
         // If the thread has ended, nothing arrives, and that is all there is to say.
-        let _ = self.requests.send(hash);
+        let _ = self.requests.send(Request::Ask(hash));
+    }
+
+    /// Looks after a texture's files no more.
+    pub fn forget(&self, hash: u64) {
+        let _ = self.requests.send(Request::Forget(hash));
     }
 
     /// What has arrived, if anything has.

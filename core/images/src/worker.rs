@@ -19,6 +19,15 @@ use crate::read::{Abilities, MOST_FILE_BYTES, decode};
 /// How often the folder is looked at.
 const PERIOD: Duration = Duration::from_secs(1);
 
+/// What the thread is asked.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Request {
+    /// For all that replaces the texture with this hash.
+    Ask(u64),
+    /// To look after it no more.
+    Forget(u64),
+}
+
 /// Whoever has asked is gone.
 struct Gone;
 
@@ -49,12 +58,16 @@ impl Worker {
     }
 
     /// Answers requests, and looks at the folder in between, until nobody is there to be answered.
-    pub(crate) fn run(mut self, requests: &Receiver<u64>) {
+    pub(crate) fn run(mut self, requests: &Receiver<Request>) {
         self.list();
         let mut next = Instant::now() + PERIOD;
         loop {
             let handled = match requests.recv_timeout(next.saturating_duration_since(Instant::now())) {
-                Ok(hash) => self.answer(hash),
+                Ok(Request::Ask(hash)) => self.answer(hash),
+                Ok(Request::Forget(hash)) => {
+                    self.forget(hash);
+                    Ok(())
+                }
                 Err(RecvTimeoutError::Timeout) => Ok(()),
                 Err(RecvTimeoutError::Disconnected) => Err(Gone),
             };
@@ -96,6 +109,13 @@ impl Worker {
             self.update(name)?;
         }
         self.send(Arrival::All { hash })
+    }
+
+    fn forget(&mut self, hash: u64) {
+        self.wanted.remove(&hash);
+        for role in Role::ALL {
+            self.read.remove(&FileName { hash, role });
+        }
     }
 
     /// Reads what has changed.

@@ -10,7 +10,7 @@ use afterglow_gl::frame::{CLIP_PLANES, GlobalWords, LIGHTS, SLOTS, STATE_WORDS, 
 use afterglow_layout::StructDescription;
 use afterglow_records::{
     BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_MASK, BAKE_NONE, BAKE_SHIFT, BlendWord, MASK_MOVING,
-    MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, NO_MAP, WHITE_ALBEDO,
+    MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, MapWord, NO_MAP, WHITE_ALBEDO,
 };
 
 use self::constants::{enumerations, record_enumerations, surface_enumerations};
@@ -71,7 +71,10 @@ pub fn pathtrace() -> String {
         ("MEMBER_SHIFT", MEMBER_SHIFT),
         ("NO_MAP", NO_MAP),
     ];
-    let mut text = structures(&lists::pathtrace()) + "\n" + &BlendWord::description().glsl();
+    let mut text = structures(&lists::pathtrace())
+        + "\n"
+        + &BlendWord::description().glsl()
+        + &MapWord::description().glsl();
     for (name, value) in masks {
         text += &format!("#define {name} {value}u\n");
     }

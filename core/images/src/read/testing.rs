@@ -61,7 +61,7 @@ pub(crate) fn ktx2(format: u32, scheme: u32, levels: &[Level]) -> Vec<u8> {
 /// A DDS file of a `DXGI_FORMAT`.
 pub(crate) fn dds(format: u32, levels: &[Level]) -> Vec<u8> {
     let (width, height) = (levels[0].width, levels[0].height);
-    let mut words = vec![0u32; 37];
+    let mut words = [0u32; 37];
     words[0] = u32::from_le_bytes(*b"DDS ");
     // Caps, height, width, pixel format, number of mipmaps.
     words[1..8].copy_from_slice(&[124, 0x2_1007, height, width, 0, 0, levels.len() as u32]);

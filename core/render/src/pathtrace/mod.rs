@@ -16,6 +16,7 @@ mod pipelines;
 mod prepare;
 mod rays;
 mod record;
+mod replaced;
 mod said;
 pub(crate) mod schedule;
 mod slabs;
@@ -25,7 +26,7 @@ mod unseen;
 mod world;
 
 pub(crate) use gather::TraceInput;
-pub use options::{Displaced, Mode, PathtraceOptions};
+pub use options::{Displaced, ImageOptions, Mode, PathtraceOptions};
 pub use prepare::TraceCounts;
 pub(crate) use prepare::{PreparedTrace, prepare};
 pub(crate) use record::TraceContext;

@@ -123,7 +123,7 @@ pub(crate) fn surface_draw(
         metallic_roughness_map: NO_MAP,
         emission_map: NO_MAP,
         bake: BAKE_NONE,
-        padding: 0,
+        maps: 0,
     }
 }
 

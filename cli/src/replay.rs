@@ -214,14 +214,7 @@ fn conclude(
     if let Some(path) = &arguments.json {
         output::write_json(path, report)?;
     }
-    let messages = session.validation_messages();
-    if !messages.is_empty() {
-        return Err(Failure::Check(format!(
-            "validation: {} messages\n{}",
-            messages.len(),
-            messages.join("\n")
-        )));
-    }
+    failure::validation(&session.validation_messages())?;
     if let Some(failure) = &summary.failure {
         return Err(Failure::input(&arguments.trace, format!("{failure}; what comes before was played")));
     }

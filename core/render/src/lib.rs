@@ -43,7 +43,9 @@ pub use afterglow_frame_graph::CulledReport;
 pub use afterglow_records::Paint;
 pub use drawables::Carried;
 pub use error::RenderError;
-pub use pathtrace::{Displaced, ImageOptions, Mode, PathtraceOptions, TraceCounts};
+pub use pathtrace::{
+    Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Radiance, Target, TraceCounts,
+};
 pub use renderer::{RenderOptions, Renderer};
 pub use report::{FrameReport, PassReport, SceneReport};
 pub use scale::Scale;

@@ -147,9 +147,9 @@ impl Renderer {
     pub fn set_mode(&mut self, mode: Mode, options: &PathtraceOptions) -> Result<(), RenderError> {
         match (mode, &mut self.tracer) {
             (Mode::Raster, _) => self.stop_tracing(),
-            (Mode::Pathtrace, Some(tracer)) => tracer.set_options(options),
-            (Mode::Pathtrace, None) => {
-                self.tracer = Tracer::new(&self.gpu, &self.table, options.clone())?;
+            (Mode::Pathtrace | Mode::Reference, Some(tracer)) => tracer.set_options(mode, options),
+            (Mode::Pathtrace | Mode::Reference, None) => {
+                self.tracer = Tracer::new(&self.gpu, &self.table, mode, options.clone())?;
             }
         }
         if let (Some(images), None, Some(_)) = (&options.images, &self.replacements, &self.tracer) {
@@ -160,10 +160,7 @@ impl Renderer {
 
     /// What frames become.
     pub fn mode(&self) -> Mode {
-        match self.tracer {
-            Some(_) => Mode::Pathtrace,
-            None => Mode::Raster,
-        }
+        self.tracer.as_ref().map_or(Mode::Raster, |tracer| tracer.mode)
     }
 
     /// Executes a frame's operations and answers a question about the result.

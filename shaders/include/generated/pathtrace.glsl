@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 232 bytes
+struct SurfaceDraw { // 248 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -28,6 +28,8 @@ struct SurfaceDraw { // 232 bytes
     uint metallic_roughness_map;
     uint emission_map;
     uint bake;
+    uint first_light;
+    vec3 base_color;
     uint maps;
 };
 #endif
@@ -42,27 +44,46 @@ struct MeshMember { // 8 bytes
 
 #ifndef STRUCT_LightSource
 #define STRUCT_LightSource
-struct LightSource { // 80 bytes
+struct LightSource { // 96 bytes
     vec3 position;
     float radius;
     vec3 color;
-    uint has_place;
+    uint kind;
     vec3 attenuation;
     float spot_cos_cutoff;
     vec3 spot_axis;
     float spot_exponent;
-    vec3 specular;
+    vec3 edge_1;
+    vec3 edge_2;
+    uint trail;
+    uint padding;
+};
+#endif
+
+#ifndef STRUCT_LightNode
+#define STRUCT_LightNode
+struct LightNode { // 64 bytes
+    vec3 least;
+    float power;
+    vec3 greatest;
+    uint next;
+    vec3 axis;
+    float cos_spread;
+    vec3 attenuation;
     uint padding;
 };
 #endif
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 240 bytes
+struct ViewRecord { // 288 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
     uint64_t lights;
+    uint64_t light_nodes;
+    uint64_t counters;
+    uint64_t radiance;
     uint64_t world;
     uint64_t surfaces;
     uint64_t light;
@@ -77,8 +98,14 @@ struct ViewRecord { // 240 bytes
     uint albedo;
     float bake_scale;
     vec3 bounce;
-    uint padding;
+    uint far_count;
     uint light_count;
+    uint most_surfaces;
+    uint asked;
+    uint candidates;
+    uint traits;
+    float most_radiance;
+    uint padding;
     uint samples;
     uint accumulated;
     uint seed;
@@ -115,6 +142,24 @@ struct LightTexel { // 36 bytes
     vec3 direct;
     vec3 indirect;
     vec3 specular;
+};
+#endif
+
+#ifndef STRUCT_RadianceTexel
+#define STRUCT_RadianceTexel
+struct RadianceTexel { // 24 bytes
+    vec3 mean;
+    vec3 squares;
+};
+#endif
+
+#ifndef STRUCT_TraceCounters
+#define STRUCT_TraceCounters
+struct TraceCounters { // 16 bytes
+    uint non_finite;
+    uint limited;
+    uint removed;
+    uint rays;
 };
 #endif
 
@@ -175,6 +220,18 @@ struct ViewPush { // 32 bytes
 #define MASK_VIEW_MODEL 4u
 #define MEMBER_SHIFT 20u
 #define NO_MAP 4294967295u
+#define LIGHT_FAR 0u
+#define LIGHT_LEAF 2147483648u
+#define LIGHT_POINT 1u
+#define LIGHT_SPHERE 2u
+#define LIGHT_TRIANGLE 3u
+#define LIGHT_TRIANGLE_BOTH 4u
+#define MEMBER_OF_LIGHTS 2147483648u
+#define NO_LIGHT 4294967295u
+#define TRACE_INDEPENDENT 1u
+#define TRACE_ROULETTE 8u
+#define TRACE_UNIFORM_LIGHTS 2u
+#define TRACE_UNLIMITED 4u
 
 #define SURFACE_NONE 0u
 #define SURFACE_LIT 1u

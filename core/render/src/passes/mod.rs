@@ -11,5 +11,6 @@ pub(crate) mod light;
 pub(crate) mod pixels;
 pub(crate) mod raster;
 pub(crate) mod readback;
+pub(crate) mod reference;
 pub(crate) mod surface;
 pub(crate) mod transfers;

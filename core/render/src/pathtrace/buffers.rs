@@ -5,7 +5,9 @@ use afterglow_gpu::{
     BindlessKind, BindlessTable, Buffer, BufferDesc, BufferKind, Gpu, GpuError, Image, ImageDesc, vk,
 };
 use afterglow_layout::SharedStruct;
-use afterglow_records::{Exposure, ExposureSum, LightTexel, MoverSum, SurfaceTexel};
+use afterglow_records::{
+    Exposure, ExposureSum, LightTexel, MoverSum, RadianceTexel, SurfaceTexel, TraceCounters,
+};
 
 use crate::target::{COLOR_FORMAT, Target};
 
@@ -50,6 +52,9 @@ pub(crate) struct ViewBuffers {
     pub(crate) exposure: Tracked,
     /// Sums of moving draws among baked surfaces.
     pub(crate) movers: Tracked,
+    pub(crate) counters: Tracked,
+    /// Linear pictures, once one was asked for.
+    pub(crate) radiance: Option<Tracked>,
 }
 
 impl ViewBuffers {
@@ -78,6 +83,8 @@ impl ViewBuffers {
             sums: buffer("exposure sums", u64::from(sum_count(size)) * stride::<ExposureSum>())?,
             exposure: buffer("exposure", stride::<Exposure>())?,
             movers: buffer("mover sums", stride::<MoverSum>())?,
+            counters: buffer("trace counters", stride::<TraceCounters>())?,
+            radiance: None,
         })
     }
 
@@ -91,6 +98,15 @@ impl ViewBuffers {
         while self.light.len() < views {
             let bytes = pixels(self.size) * stride::<LightTexel>();
             self.light.push(Tracked::new(gpu, "light", bytes)?);
+        }
+        Ok(())
+    }
+
+    /// Makes sure that there is a linear picture.
+    pub(crate) fn reserve_radiance(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        if self.radiance.is_none() {
+            let bytes = pixels(self.size) * stride::<RadianceTexel>();
+            self.radiance = Some(Tracked::new(gpu, "radiance", bytes)?);
         }
         Ok(())
     }

@@ -5,6 +5,7 @@ use afterglow_records::{LightSource, SurfaceDraw};
 use afterglow_scene::{Camera, Scene};
 use xxhash_rust::xxh3::Xxh3;
 
+use super::estimator::Estimator;
 use super::options::PathtraceOptions;
 
 /// Samples of a pixel after which more change nothing that 8 bits show.
@@ -22,6 +23,7 @@ impl ChangeHasher {
         camera: &Camera,
         scene: &Scene,
         lights: &[LightSource],
+        estimator: &Estimator,
         options: &PathtraceOptions,
     ) -> Self {
         let mut hasher = Xxh3::new();
@@ -31,7 +33,10 @@ impl ChangeHasher {
         hasher.update(bytemuck::bytes_of(&scene.sky.to_array()));
         hasher.update(bytemuck::bytes_of(&scene.ambient.to_array()));
         hasher.update(bytemuck::cast_slice(lights));
-        hasher.update(format!("{options:?}").as_bytes());
+        hasher.update(format!("{estimator:?}").as_bytes());
+        // Frames may differ in their number of samples, and still add up.
+        let without_samples = PathtraceOptions { spp: 0, ..options.clone() };
+        hasher.update(format!("{without_samples:?}").as_bytes());
         Self { hasher, last: None }
     }
 

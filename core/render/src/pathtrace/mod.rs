@@ -7,13 +7,17 @@
 pub(crate) mod arrange;
 pub(crate) mod buffers;
 mod change;
+mod estimator;
 mod gather;
 mod geometry;
+mod light_cone;
+mod light_tree;
 mod lights;
 pub(crate) mod meshes;
 mod options;
 mod pipelines;
 mod prepare;
+mod radiance;
 mod rays;
 mod record;
 mod replaced;
@@ -26,8 +30,9 @@ mod unseen;
 mod world;
 
 pub(crate) use gather::TraceInput;
-pub use options::{Displaced, ImageOptions, Mode, PathtraceOptions};
+pub use options::{Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Target};
 pub use prepare::TraceCounts;
 pub(crate) use prepare::{PreparedTrace, prepare};
+pub use radiance::Radiance;
 pub(crate) use record::TraceContext;
 pub(crate) use tracer::{Tracer, Tracing, Understood};

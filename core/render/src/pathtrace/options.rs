@@ -15,6 +15,44 @@ pub enum Mode {
     Raster,
     /// The same with the world's light traced.
     Pathtrace,
+    /// The same with light that adds up without any bias: no limit, no filter, as many bounces as are asked for.
+    Reference,
+}
+
+/// How far light is followed in [`Mode::Reference`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Target {
+    /// What lights bring to the surfaces that are seen, and what shines itself.
+    Direct,
+    /// One bounce more.
+    Bounce1,
+    /// All bounces. Paths end at random from the fifth surface on, and after [`Target::MOST_SURFACES`] at the latest: then
+    /// a closed world of albedo a has a share of a^64 less light than it should.
+    #[default]
+    Full,
+}
+
+impl Target {
+    /// Surfaces that a path may scatter at.
+    pub const MOST_SURFACES: u32 = 64;
+
+    pub(crate) fn surfaces(self) -> u32 {
+        match self {
+            Self::Direct => 1,
+            Self::Bounce1 => 2,
+            Self::Full => Self::MOST_SURFACES,
+        }
+    }
+}
+
+/// How one of many lights is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LightChoice {
+    /// By what it may bring, and several candidates by what they bring unshadowed.
+    #[default]
+    Resampled,
+    /// All with equal chances: what others are measured by.
+    Uniform,
 }
 
 /// Which traced draws are displaced.
@@ -39,6 +77,22 @@ pub struct ImageOptions {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PathtraceOptions {
+    /// How far light is followed in [`Mode::Reference`].
+    pub target: Target,
+    /// Surfaces that a path may scatter at in [`Mode::Pathtrace`], the seen one included. Light that comes by more is missing,
+    /// but for the program's ambient light.
+    pub surfaces: u32,
+    /// How one of many lights is chosen.
+    pub light_choice: LightChoice,
+    /// Candidates of which one light is kept, 1 to 8.
+    pub candidates: u32,
+    /// Lights with a place that each sample asks at the seen surface, 1 to 4.
+    pub asked: u32,
+    /// Radiance that a sample may bring in each channel in [`Mode::Pathtrace`]; infinite for no limit. What that removes is
+    /// counted.
+    pub most_radiance: f32,
+    /// Keep the linear picture, before exposure, for [`Renderer::read_radiance`](crate::Renderer::read_radiance).
+    pub keeps_radiance: bool,
     /// Samples a pixel and frame, at least 1.
     pub spp: u32,
     /// Of all randomness: equal seeds give equal pictures.
@@ -72,6 +126,13 @@ pub struct PathtraceOptions {
 impl Default for PathtraceOptions {
     fn default() -> Self {
         Self {
+            target: Target::Full,
+            surfaces: 2,
+            light_choice: LightChoice::Resampled,
+            candidates: 4,
+            asked: 4,
+            most_radiance: 16.0,
+            keeps_radiance: false,
             spp: 2,
             seed: 0,
             filter: true,

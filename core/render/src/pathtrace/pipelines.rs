@@ -11,6 +11,7 @@ const GROUP_EDGE: u32 = 8;
 pub(crate) struct TracePipelines {
     pub(crate) surface: ComputePipeline,
     pub(crate) light: ComputePipeline,
+    pub(crate) reference: ComputePipeline,
     pub(crate) filter: ComputePipeline,
     pub(crate) sum: ComputePipeline,
     pub(crate) exposure: ComputePipeline,
@@ -33,6 +34,7 @@ impl TracePipelines {
         Ok(Self {
             surface: pipeline("surface", shaders::SURFACE_COMP)?,
             light: pipeline("light", shaders::LIGHT_COMP)?,
+            reference: pipeline("reference", shaders::REFERENCE_COMP)?,
             filter: pipeline("filter", shaders::FILTER_COMP)?,
             sum: pipeline("exposure sums", shaders::EXPOSURE_SUM_COMP)?,
             exposure: pipeline("exposure", shaders::EXPOSURE_COMP)?,

@@ -8,9 +8,10 @@ use glam::Vec3;
 
 use super::buffers::{ViewBuffers, sum_count};
 use super::change::{ChangeHasher, History, changes_textures};
+use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
-use super::lights::light_sources;
 use super::meshes::MeshCopy;
+use super::options::Mode;
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
 use super::tracer::{Tracer, Tracing};
@@ -78,11 +79,16 @@ pub(crate) fn prepare(
     tracer.world.begin_frame();
     let origin = camera.view.inverse().w_axis.truncate();
     let geometry = &mut tracer.world.geometry;
-    let surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
+    let mut surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
+    tracer.has_camera_rays = tracing.is_staged && tracer.mode == Mode::Reference;
     if let Some(buffers) = &mut tracer.buffers {
         buffers.reserve_movers(input.gpu, surfaces.records.len())?;
+        if tracer.has_camera_rays || tracer.options.keeps_radiance {
+            buffers.reserve_radiance(input.gpu)?;
+        }
     }
-    let world = tracer.world.build(input.frame, &surfaces.traced, origin, input.arena)?;
+    surfaces.list_lights(&tracing.scene.lights, origin, &tracer.options);
+    let world = tracer.world.build(input.frame, &surfaces.traced, &surfaces.lights, origin, input.arena)?;
     let common = tracer.common(&mut input, tracing, camera, &surfaces, &world, size)?;
     let mut views = Vec::with_capacity(tracing.arrangement.views.len());
     let mut finds_exposure = true;
@@ -118,9 +124,9 @@ impl Tracer {
         size: [u32; 2],
     ) -> Result<Common, GpuError> {
         let (scene, options) = (&tracing.scene, &self.options);
-        let origin = camera.view.inverse().w_axis.truncate();
-        let lights = light_sources(&scene.lights, &surfaces.highlights, origin, options.move_light);
-        let mut hasher = ChangeHasher::new(size, camera, scene, &lights, options);
+        let estimator = Estimator::of(self.mode, options);
+        let mut hasher =
+            ChangeHasher::new(size, camera, scene, &surfaces.lights.sources, &estimator, options);
         for traced in &surfaces.traced {
             let record = &surfaces.records[traced.surface as usize];
             hasher.add(input.frame, traced.draw, record, traced.triangles.hash);
@@ -133,11 +139,18 @@ impl Tracer {
                 frame: input.address,
                 draws: address(input.arena.push_table(&surfaces.records))?,
                 members: world.members,
-                lights: address(input.arena.push_table(&lights))?,
+                lights: address(input.arena.push_table(&surfaces.lights.sources))?,
+                light_nodes: address(input.arena.push_table(&surfaces.lights.nodes))?,
                 world: world.tlas,
                 width: size[0],
                 height: size[1],
-                light_count: lights.len() as u32,
+                far_count: surfaces.lights.far_count as u32,
+                light_count: surfaces.lights.sources.len() as u32,
+                most_surfaces: estimator.surfaces,
+                asked: estimator.asked,
+                candidates: estimator.candidates,
+                traits: estimator.traits,
+                most_radiance: estimator.most_radiance,
                 samples: options.spp.max(1),
                 seed: options.seed,
                 bake_scale: scene.relit.as_ref().map_or(0.0, |relit| relit.scale),
@@ -157,7 +170,7 @@ impl Tracer {
                 ..ViewRecord::zeroed()
             },
             hash: hasher.finish(),
-            may_continue: options.accumulate && !changes_textures(input.frame),
+            may_continue: estimator.accumulates && !changes_textures(input.frame),
         })
     }
 
@@ -171,7 +184,7 @@ impl Tracer {
     ) -> (ViewNeeds, ViewRecord) {
         let is_baked = kinds.iter().all(|kind| *kind == SurfaceKind::Baked);
         let is_picture = self.options.paint == Paint::Picture;
-        let is_idle = is_baked && common.record.has_movers == 0 && is_picture;
+        let is_idle = is_baked && common.record.has_movers == 0 && is_picture && !self.options.keeps_radiance;
         if self.history.len() <= view {
             self.history.resize(view + 1, History::default());
         }
@@ -188,6 +201,7 @@ impl Tracer {
             true => ExposureUse::Shared,
         };
         let needs = ViewNeeds {
+            is_reference: self.has_camera_rays,
             is_idle,
             filter_steps,
             filter_reason,
@@ -204,7 +218,7 @@ impl Tracer {
 
     /// Steps of the filter for so many samples, and why there are no more.
     fn filter_steps(&self, samples: u32) -> (u32, &'static str) {
-        if !self.options.filter {
+        if !self.options.filter || self.mode == Mode::Reference {
             return (0, "not asked for");
         }
         let steps = FILTER_STEPS.iter().find(|(most, _)| samples < *most);
@@ -218,6 +232,8 @@ fn name_buffers(record: &mut ViewRecord, buffers: &ViewBuffers, view: usize, fil
     record.light = buffers.light.get(view).map_or(0, |light| light.buffer.address());
     record.indirect = buffers.indirect[filter_steps as usize % 2].buffer.address();
     record.sums = buffers.sums.buffer.address();
+    record.counters = buffers.counters.buffer.address();
+    record.radiance = buffers.radiance.as_ref().map_or(0, |radiance| radiance.buffer.address());
     record.movers = buffers.movers.buffer.address();
     record.exposure = buffers.exposure.buffer.address();
     record.visibility = buffers.visibility_index;

@@ -34,6 +34,11 @@ impl TraceContext<'_> {
                 self.commands.fill_buffer(&self.buffers.movers.buffer, 0);
                 return;
             }
+            TraceWork::ClearCounters => {
+                self.commands.fill_buffer(&self.buffers.counters.buffer, 0);
+                return;
+            }
+            TraceWork::Reference(view) => (&pipelines.reference, push(view), groups),
             TraceWork::Surface(view) => (&pipelines.surface, push(view), groups),
             TraceWork::Light(view) => {
                 let push = ViewPush { target: indirect(0), ..push(view) };

@@ -3,13 +3,16 @@
 use afterglow_frame_graph::{GraphBuilder, ResourceId};
 
 use super::buffers::ViewBuffers;
-use crate::passes::{build, composite, exposure, filter, light, surface};
+use crate::passes::{build, composite, exposure, filter, light, reference, surface};
 use crate::schedule::Resources;
 
 /// What a pass of a view records; the number is the view's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TraceWork {
     Build,
+    ClearCounters,
+    /// Radiance by the camera's own rays.
+    Reference(usize),
     Surface(usize),
     Light(usize),
     /// A step of the filter, of so many.
@@ -23,6 +26,8 @@ pub(crate) enum TraceWork {
 /// What of a view's light is needed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ViewNeeds {
+    /// The camera's own rays see it: nothing else is needed of it.
+    pub(crate) is_reference: bool,
     /// Nothing in the picture would change by light.
     pub(crate) is_idle: bool,
     /// Steps of the filter.
@@ -62,6 +67,8 @@ pub(crate) struct ViewResources {
     pub(crate) sums: ResourceId,
     pub(crate) exposure: ResourceId,
     pub(crate) movers: ResourceId,
+    pub(crate) counters: ResourceId,
+    pub(crate) radiance: Option<ResourceId>,
 }
 
 impl ViewResources {
@@ -92,9 +99,15 @@ impl ViewResources {
             sums: import("exposure sums", &buffers.sums),
             exposure: import("exposure", &buffers.exposure),
             movers: import("mover sums", &buffers.movers),
+            counters: import("trace counters", &buffers.counters),
+            radiance: buffers.radiance.as_ref().map(|radiance| import("radiance", radiance)),
         };
         graph.output(resources.world);
         graph.output(resources.exposure);
+        graph.output(resources.counters);
+        if let Some(radiance) = resources.radiance {
+            graph.output(radiance);
+        }
         for light in &resources.light {
             graph.output(*light);
         }
@@ -115,6 +128,15 @@ pub(crate) fn declare_view(
     if view == 0 {
         work.push(TraceWork::Build);
         build::declare(graph, views, has_new_meshes);
+        work.push(TraceWork::ClearCounters);
+        light::declare_clear(graph, views);
+    }
+    if needs.is_reference {
+        if view == 0 {
+            work.push(TraceWork::Reference(view));
+            reference::declare(graph, frame, views, needs);
+        }
+        return;
     }
     work.push(TraceWork::Surface(view));
     surface::declare(graph, frame, views, needs);

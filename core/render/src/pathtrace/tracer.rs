@@ -10,7 +10,7 @@ use afterglow_scene::{Recovery, Scene};
 use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
 use super::change::History;
-use super::options::PathtraceOptions;
+use super::options::{Mode, PathtraceOptions};
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
 use super::schedule::{ExposureUse, ViewResources};
@@ -35,10 +35,14 @@ pub(crate) struct Tracing {
     pub(crate) arrangement: Arrangement,
     /// Operations of the frame that are rasterized; what comes after them is for rays alone.
     pub(crate) rasterized: usize,
+    /// The scene is all that there is: in `reference` mode rays of the camera see it, and no draw.
+    pub(crate) is_staged: bool,
 }
 
 /// Path tracing of one window.
 pub(crate) struct Tracer {
+    /// `Pathtrace` or `Reference`.
+    pub(crate) mode: Mode,
     pub(crate) options: PathtraceOptions,
     pub(crate) recovery: Recovery,
     pub(crate) world: WorldBuilder,
@@ -49,6 +53,8 @@ pub(crate) struct Tracer {
     pub(crate) buffers: Option<ViewBuffers>,
     /// Of each view.
     pub(crate) history: Vec<History>,
+    /// The last frame was seen by rays of the camera.
+    pub(crate) has_camera_rays: bool,
     /// An earlier frame has found an exposure.
     pub(crate) has_exposure: bool,
     /// What was handed over of the frame that is going on.
@@ -64,6 +70,7 @@ impl Tracer {
     pub(crate) fn new(
         gpu: &Gpu,
         table: &BindlessTable,
+        mode: Mode,
         options: PathtraceOptions,
     ) -> Result<Option<Self>, GpuError> {
         let features = gpu.features();
@@ -75,21 +82,22 @@ impl Tracer {
             return Ok(None);
         }
         let pipelines = Arc::new(TracePipelines::new(gpu, table)?);
-        Ok(Some(Self::with(gpu, options, pipelines)))
+        Ok(Some(Self::with(gpu, mode, options, pipelines)))
     }
 
     /// Traces otherwise from now on.
-    pub(crate) fn set_options(&mut self, options: &PathtraceOptions) {
+    pub(crate) fn set_options(&mut self, mode: Mode, options: &PathtraceOptions) {
+        self.mode = mode;
         self.options = options.clone();
         self.recovery.set_memory(options.memory_bytes);
     }
 
     /// For another window of the same renderer.
     pub(crate) fn beside(&self, gpu: &Gpu) -> Self {
-        Self::with(gpu, self.options.clone(), self.pipelines.clone())
+        Self::with(gpu, self.mode, self.options.clone(), self.pipelines.clone())
     }
 
-    fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
+    fn with(gpu: &Gpu, mode: Mode, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
         let mut recovery = Recovery::with_profile(options.profile.clone())
             .with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);
@@ -97,6 +105,7 @@ impl Tracer {
             recovery.set_cache(cache);
         }
         Self {
+            mode,
             options,
             recovery,
             world: WorldBuilder::new(gpu),
@@ -104,6 +113,7 @@ impl Tracer {
             pipelines,
             buffers: None,
             history: Vec::new(),
+            has_camera_rays: false,
             has_exposure: false,
             parts: Parts::None,
             has_begun_unseen: false,
@@ -114,11 +124,15 @@ impl Tracer {
     /// Judges a frame, and puts it in order if it has a world.
     pub(crate) fn understand(&mut self, frame: &mut Frame) -> Understood {
         let scene = self.recovery.understand(frame);
-        self.stage(frame, scene)
+        self.put_in_order(frame, scene, false)
     }
 
     /// Puts a frame in order whose scene is known.
-    pub(crate) fn stage(&mut self, frame: &mut Frame, mut scene: Scene) -> Understood {
+    pub(crate) fn stage(&mut self, frame: &mut Frame, scene: Scene) -> Understood {
+        self.put_in_order(frame, scene, true)
+    }
+
+    fn put_in_order(&mut self, frame: &mut Frame, mut scene: Scene, is_staged: bool) -> Understood {
         if scene.cut {
             self.forget();
             self.has_exposure = false;
@@ -130,7 +144,7 @@ impl Tracer {
             arrangement.apply(frame, &mut scene);
             let rasterized = frame.operations.len();
             unseen::append(frame, &mut scene, &mut arrangement);
-            Tracing { scene, arrangement, rasterized }
+            Tracing { scene, arrangement, rasterized, is_staged }
         });
         Understood { report, tracing }
     }
@@ -174,6 +188,10 @@ impl Tracer {
             keep(&mut buffers.surfaces.state, resources.surfaces);
             keep(&mut buffers.sums.state, resources.sums);
             keep(&mut buffers.movers.state, resources.movers);
+            keep(&mut buffers.counters.state, resources.counters);
+            if let (Some(radiance), Some(resource)) = (&mut buffers.radiance, resources.radiance) {
+                keep(&mut radiance.state, resource);
+            }
             keep(&mut buffers.exposure.state, resources.exposure);
             for (light, resource) in buffers.light.iter_mut().zip(&resources.light) {
                 keep(&mut light.state, *resource);

@@ -13,6 +13,7 @@ use hashbrown::HashMap;
 use xxhash_rust::xxh3::Xxh3;
 
 use super::geometry::{GeometryReader, Triangles};
+use super::lights::LightList;
 use super::meshes::Meshes;
 use crate::uploads::UploadArena;
 
@@ -83,6 +84,7 @@ impl WorldBuilder {
         &mut self,
         frame: &Frame,
         traced: &[Traced<'_>],
+        _lights: &LightList,
         origin: DVec3,
         arena: &mut UploadArena,
     ) -> Result<World, GpuError> {
@@ -249,7 +251,7 @@ mod tests {
                 block: None,
             })
             .collect();
-        let world = builder.build(frame, &traced, DVec3::ZERO, &mut arena).unwrap();
+        let world = builder.build(frame, &traced, &LightList::default(), DVec3::ZERO, &mut arena).unwrap();
         (world, builder.meshes().built)
     }
 

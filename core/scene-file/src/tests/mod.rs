@@ -1,0 +1,1 @@
+//! Scenes written by hand, staged, and damaged.

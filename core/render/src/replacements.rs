@@ -88,6 +88,12 @@ impl Replacements {
         self.known.get(hash)?.images[role as usize].as_ref()
     }
 
+    /// Hashes of what was drawn with.
+    #[cfg(test)]
+    pub(crate) fn hashes(&self) -> impl Iterator<Item = u64> {
+        self.hashes.values().map(|(hash, _)| *hash)
+    }
+
     /// All images that were made or are to be made.
     pub(crate) fn images(&self) -> impl Iterator<Item = ImageKey> {
         let made = self.known.values().flat_map(|known| known.images.iter().flatten());

@@ -3,6 +3,7 @@
 mod clears;
 mod fragments;
 mod hints;
+mod images;
 mod lighting;
 mod pathtrace;
 mod pixels;

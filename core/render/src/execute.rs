@@ -55,6 +55,8 @@ impl Renderer {
         question: Option<Question>,
         understood: Option<&Understood>,
     ) -> Result<Option<Readback>, RenderError> {
+        #[cfg(feature = "reload")]
+        self.reload_shaders();
         self.collect(self.current)?;
         self.resize(frame)?;
         self.slots[self.current].arena.reset();

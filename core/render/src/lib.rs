@@ -19,6 +19,8 @@ mod pipelines;
 mod plan;
 mod queries;
 mod rectangles;
+#[cfg(feature = "reload")]
+mod reload;
 mod renderer;
 mod replacements;
 mod report;

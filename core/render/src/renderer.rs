@@ -61,6 +61,9 @@ pub struct Renderer {
     pub(crate) tracer: Option<Tracer>,
     /// What takes the place of textures while frames are traced.
     pub(crate) replacements: Option<Replacements>,
+    /// Looks after shaders; none if nobody has asked for it.
+    #[cfg(feature = "reload")]
+    pub(crate) reloader: Option<afterglow_shaders::reload::Reloader>,
     /// The number of the selected drawable; 0 before one was selected.
     pub(crate) drawable: u64,
     /// The other drawables.
@@ -95,6 +98,8 @@ impl Renderer {
             report: FrameReport::default(),
             tracer: None,
             replacements: None,
+            #[cfg(feature = "reload")]
+            reloader: afterglow_shaders::reload::Reloader::from_environment(),
             drawable: 0,
             seats: HashMap::new(),
             recycled: Vec::new(),

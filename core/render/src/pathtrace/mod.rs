@@ -31,6 +31,8 @@ mod world;
 
 pub(crate) use gather::TraceInput;
 pub use options::{Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Target};
+#[cfg(feature = "reload")]
+pub(crate) use pipelines::TracePipelines;
 pub use prepare::TraceCounts;
 pub(crate) use prepare::{PreparedTrace, prepare};
 pub use radiance::Radiance;

@@ -55,7 +55,24 @@ shared_struct! {
         pub first_light: u32,
         /// Albedo in place of all colours, linear RGB; below 0 if there is none. Such a surface shines from its front only.
         pub base_color: [f32; 3],
-        pub padding: u32,
+        /// How its maps are to be read: see `MapWord`.
+        pub maps: u32,
+    }
+}
+
+packed_words! {
+    /// How a surface's maps are to be read: all fields are 0 for those that the program names.
+    pub struct MapWord: "maps", 1 {
+        word 0 {
+            /// The texture unit whose coordinates they are read with.
+            unit: 2,
+            /// 1 if how much is metal is in the normal map's alpha, and not in the blue of `metallic_roughness_map`.
+            metal_in_normal: 1,
+            /// 1 if roughness is in the emission map's alpha, and not in the green of `metallic_roughness_map`.
+            roughness_in_emission: 1,
+            /// 1 if the normal map has x and y only.
+            normal_of_two: 1,
+        }
     }
 }
 

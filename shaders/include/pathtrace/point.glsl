@@ -57,8 +57,11 @@ void program_surface(ViewRecord view, DrawReference draw, uint draw_index, uint 
     }
     point.emission += said_emission(view, draw, triangle, weights, RAY_TEXELS);
     vec3 albedo = min(color, MOST_ALBEDO);
-    point.bsdf = draw.it.roughness < 0.0
-        ? Bsdf(albedo, lobe.rgb, alpha_of(lobe.w)) : rough_bsdf(albedo, draw.it.roughness, draw.it.metallic);
+    point.bsdf = Bsdf(albedo, lobe.rgb, alpha_of(lobe.w));
+    if (draw.it.roughness >= 0.0) {
+        vec2 varied = said_roughness_metallic(draw, map_coordinates(view, draw, triangle, weights), RAY_TEXELS);
+        point.bsdf = rough_bsdf(albedo, varied.x, varied.y);
+    }
 }
 
 // What a ray along `direction` has met.

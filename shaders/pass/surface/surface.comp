@@ -138,14 +138,11 @@ void apply_said(ViewRecord view, DrawReference draw, uint triangle, vec3 weights
     float texels = seen_texels(view, world, coordinates, away);
     vec2 here = coordinates[0] * weights.x + coordinates[1] * weights.y + coordinates[2] * weights.z;
     if (draw.it.normal_map != NO_MAP) {
-        vec3 turned = map_texel(draw.it.normal_map, here, texels).rgb;
+        vec3 turned = map_normal(draw, here, texels);
         texel.normal = pack_unit_vector(mapped_normal(turned, unpack_unit_vector(texel.normal), world, coordinates));
     }
     if (draw.it.roughness >= 0.0) {
-        vec2 varied = vec2(draw.it.roughness, draw.it.metallic);
-        if (draw.it.metallic_roughness_map != NO_MAP) {
-            varied *= map_texel(draw.it.metallic_roughness_map, here, texels).gb;
-        }
+        vec2 varied = said_roughness_metallic(draw, here, texels);
         Bsdf bsdf = rough_bsdf(linear_from_srgb(albedo), varied.x, varied.y);
         texel.specular = pack_lobe(bsdf.specular, varied.x);
         albedo = srgb_from_linear(bsdf.diffuse);

@@ -129,9 +129,9 @@ pub struct LightArguments {
     /// Lights that a sample asks at the surface that is seen (pathtrace)
     #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_ASKED", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=4))]
     pub asked: u32,
-    /// Choose lights for each pixel and frame alone (pathtrace)
+    /// Of many lights keep the choice of each pixel from frame to frame, and lend it to its neighbours (pathtrace)
     #[arg(long, hide_short_help = true)]
-    pub no_reuse: bool,
+    pub reuse: bool,
     /// Radiance that a sample brings at most; `inf` for no limit (pathtrace)
     #[arg(long, value_name = "RADIANCE", default_value_t = 16.0, env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
     pub limit: f32,
@@ -149,7 +149,7 @@ impl LightArguments {
             LightChoice::Uniform => render::LightChoice::Uniform,
         };
         (options.candidates, options.asked) = (self.candidates, self.asked);
-        options.keeps_lights = !self.no_reuse && self.lights == LightChoice::Resampled;
+        options.keeps_lights = self.reuse && self.lights == LightChoice::Resampled;
         options.most_radiance = self.limit;
         options.filter = !self.no_filter;
     }

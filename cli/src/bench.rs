@@ -2,6 +2,8 @@
 
 mod gl;
 mod gl_client;
+mod lights;
+mod rays;
 mod scene;
 mod xlib;
 
@@ -20,8 +22,12 @@ pub struct Arguments {
 enum What {
     /// What OpenGL calls cost a program's thread, beside Mesa's front end with nothing behind it. Needs an X server.
     Gl(gl::Arguments),
+    /// Rays a second through the structures that light is traced in, and what building them costs.
+    Rays(rays::Arguments),
     /// What understanding frames costs, beside playing and copying them: of traces, and of worlds that grow.
     Scene(scene::Arguments),
+    /// What many lights cost, and what choosing among them well is worth.
+    Lights(lights::Arguments),
     /// One side of `gl`: measures the libGL that is found first, and prints the figures as JSON.
     #[command(hide = true)]
     GlClient(gl_client::Arguments),
@@ -31,7 +37,9 @@ enum What {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.what {
         What::Gl(arguments) => gl::run(arguments),
+        What::Rays(arguments) => rays::run(arguments),
         What::Scene(arguments) => scene::run(arguments),
+        What::Lights(arguments) => lights::run(arguments),
         What::GlClient(arguments) => gl_client::run(arguments),
     }
 }

@@ -162,6 +162,9 @@ pub struct LightArguments {
     /// Lights that a sample asks at the surface that is seen (pathtrace)
     #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_ASKED", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=4))]
     pub asked: u32,
+    /// Choose lights for each pixel and frame alone (pathtrace)
+    #[arg(long, hide_short_help = true)]
+    pub no_reuse: bool,
     /// Radiance that a sample brings at most; `inf` for no limit (pathtrace)
     #[arg(long, value_name = "RADIANCE", default_value_t = 16.0, env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
     pub limit: f32,
@@ -172,7 +175,7 @@ pub struct LightArguments {
 
 impl LightArguments {
     /// Tells a renderer.
-    pub fn apply(&self, options: &mut PathtraceOptions) {
+    pub fn apply(&self, options: &mut render::PathtraceOptions) {
         options.backend = self.backend.fixed();
         options.surfaces = self.bounces + 1;
         options.light_choice = match self.lights {
@@ -180,6 +183,7 @@ impl LightArguments {
             LightChoice::Uniform => render::LightChoice::Uniform,
         };
         (options.candidates, options.asked) = (self.candidates, self.asked);
+        options.keeps_lights = !self.no_reuse && self.lights == LightChoice::Resampled;
         options.most_radiance = self.limit;
         options.filter = !self.no_filter;
     }

@@ -284,6 +284,8 @@ shared_struct! {
         pub weight: f32,
         /// How many candidates it was kept of.
         pub count: f32,
+        /// What it brings unshadowed, before the weight.
+        pub brings: f32,
     }
 }
 

@@ -116,7 +116,8 @@ pub(crate) fn schedule(
         graph.output(output);
     }
     let views = traced.map(|traced| {
-        ViewResources::declare(&mut graph, traced.buffers, traced.world, traced.prepared.backend)
+        let prepared = traced.prepared;
+        ViewResources::declare(&mut graph, traced.buffers, traced.world, prepared.backend, prepared.parity)
     });
     let mut declaring =
         Declaring { graph, resources, views, begun: None, work: Vec::with_capacity(plan.steps.len() + 1) };

@@ -171,11 +171,12 @@ struct TraceCounters { // 16 bytes
 
 #ifndef STRUCT_ReservoirTexel
 #define STRUCT_ReservoirTexel
-struct ReservoirTexel { // 16 bytes
+struct ReservoirTexel { // 20 bytes
     uint light;
     uint point;
     float weight;
     float count;
+    float brings;
 };
 #endif
 

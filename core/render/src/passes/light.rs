@@ -25,6 +25,9 @@ pub(crate) fn declare(
         .read_write(views.counters, views.backend.writes())
         .write(views.indirect[0], views.backend.writes())
         .when(!needs.is_idle, IDLE_REASON);
+    if let (Some([reservoirs, _]), Ok(())) = (views.reservoirs, needs.keeps_lights) {
+        pass.read(reservoirs, views.backend.reads());
+    }
     match needs.continues {
         true => pass.read_write(views.light[view], views.backend.writes()),
         false => pass.write(views.light[view], views.backend.writes()),

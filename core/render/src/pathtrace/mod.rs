@@ -15,6 +15,7 @@ mod formers;
 mod gather;
 mod geometry;
 mod hardware;
+mod kept;
 mod light_cone;
 mod light_tree;
 mod lights;

@@ -82,6 +82,8 @@ pub struct PathtraceOptions {
     pub candidates: u32,
     /// Lights with a place that each sample asks at the seen surface, 1 to 4.
     pub asked: u32,
+    /// Of many lights, pixels keep one from frame to frame and lend it to their neighbours, in [`Mode::Pathtrace`].
+    pub keeps_lights: bool,
     /// Radiance that a sample may bring in each channel in [`Mode::Pathtrace`]; infinite for no limit. What that removes is
     /// counted.
     pub most_radiance: f32,
@@ -123,6 +125,7 @@ impl Default for PathtraceOptions {
             light_choice: LightChoice::Resampled,
             candidates: 4,
             asked: 4,
+            keeps_lights: true,
             most_radiance: 16.0,
             keeps_radiance: false,
             spp: 2,

@@ -13,6 +13,7 @@ const GROUP_EDGE: u32 = 8;
 /// One pipeline a pass.
 pub(crate) struct TracePipelines {
     pub(crate) surface: ComputePipeline,
+    pub(crate) reservoir: ComputePipeline,
     pub(crate) light: Program,
     pub(crate) reference: Program,
     pub(crate) filter: ComputePipeline,
@@ -42,6 +43,7 @@ impl TracePipelines {
         };
         Ok(Self {
             surface: pipeline("surface", shaders::SURFACE_COMP)?,
+            reservoir: pipeline("reservoir", shaders::RESERVOIR_COMP)?,
             light: program("light", shaders::LIGHT_COMP, shaders::LIGHT_RGEN)?,
             reference: program("reference", shaders::REFERENCE_COMP, shaders::REFERENCE_RGEN)?,
             filter: pipeline("filter", shaders::FILTER_COMP)?,

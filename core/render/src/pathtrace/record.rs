@@ -44,6 +44,7 @@ impl TraceContext<'_> {
                 return;
             }
             TraceWork::Surface(view) => (&pipelines.surface, push(view), groups),
+            TraceWork::Reservoir(view) => (&pipelines.reservoir, push(view), groups),
             TraceWork::Light(view) => {
                 let push = ViewPush { target: indirect(0), ..push(view) };
                 pipelines.light.run(self.commands, self.table, &push, self.buffers.size);

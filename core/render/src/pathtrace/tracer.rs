@@ -10,6 +10,7 @@ use afterglow_scene::{Recovery, Scene};
 use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
 use super::change::History;
+use super::kept::KeptLights;
 use super::options::{Mode, PathtraceOptions};
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
@@ -53,6 +54,7 @@ pub(crate) struct Tracer {
     pub(crate) buffers: Option<ViewBuffers>,
     /// Of each view.
     pub(crate) history: Vec<History>,
+    pub(crate) kept: KeptLights,
     /// The last frame was seen by rays of the camera.
     pub(crate) has_camera_rays: bool,
     /// An earlier frame has found an exposure.
@@ -134,6 +136,7 @@ impl Tracer {
             pipelines,
             buffers: None,
             history: Vec::new(),
+            kept: KeptLights::default(),
             has_camera_rays: false,
             has_exposure: false,
             parts: Parts::None,
@@ -182,7 +185,7 @@ impl Tracer {
             if let Some(old) = self.buffers.take() {
                 old.release(table);
             }
-            self.history.iter_mut().for_each(History::forget);
+            self.forget();
             self.has_exposure = false;
             self.buffers = Some(ViewBuffers::new(gpu, table, target)?);
         }
@@ -206,7 +209,13 @@ impl Tracer {
         if let Some(buffers) = &mut self.buffers {
             keep(&mut buffers.visibility.state, resources.visibility);
             keep(&mut buffers.albedo.state, resources.albedo);
-            keep(&mut buffers.surfaces.state, resources.surfaces);
+            let parity = prepared.parity;
+            keep(&mut buffers.surfaces[parity].state, resources.surfaces);
+            keep(&mut buffers.surfaces[1 - parity].state, resources.surfaces_before);
+            if let (Some(both), Some([now, before])) = (&mut buffers.reservoirs, resources.reservoirs) {
+                keep(&mut both[parity].state, now);
+                keep(&mut both[1 - parity].state, before);
+            }
             keep(&mut buffers.sums.state, resources.sums);
             keep(&mut buffers.movers.state, resources.movers);
             keep(&mut buffers.counters.state, resources.counters);
@@ -227,6 +236,7 @@ impl Tracer {
 
     /// After a frame that was not recorded: what its passes would have left is not there.
     pub(crate) fn forget(&mut self) {
+        self.kept.forget();
         self.history.iter_mut().for_each(History::forget);
     }
 }

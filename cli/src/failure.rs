@@ -67,3 +67,11 @@ pub fn trace_end(path: &Path, end: Option<TraceEnd>) -> Result<(), Failure> {
         _ => Ok(()),
     }
 }
+
+/// A failure if the validation layer has said anything.
+pub fn validation(messages: &[String]) -> Result<(), Failure> {
+    match messages {
+        [] => Ok(()),
+        _ => Err(Failure::Check(format!("validation: {} messages\n{}", messages.len(), messages.join("\n")))),
+    }
+}

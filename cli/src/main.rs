@@ -10,6 +10,7 @@ mod libdir;
 mod manual;
 mod options;
 mod output;
+mod render;
 mod replay;
 mod run;
 
@@ -34,6 +35,8 @@ enum Command {
     Replay(replay::Arguments),
     /// Say what is in a trace.
     Inspect(inspect::Arguments),
+    /// Make a picture of a scene in a file.
+    Render(render::Arguments),
     /// Compare two pictures.
     Compare(compare::Arguments),
     /// Measure what things cost.
@@ -58,6 +61,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Replay(arguments) => replay::run(&arguments),
         Command::Inspect(arguments) => inspect::run(&arguments),
+        Command::Render(arguments) => render::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Doctor(arguments) => doctor::run(&arguments),

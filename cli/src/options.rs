@@ -6,6 +6,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use afterglow_gpu::GpuOptions;
+use afterglow_render as render;
 use afterglow_scene::{Profile, ProfileChoice, ProfileError, ProgramCache, Replacing};
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
@@ -19,6 +20,8 @@ pub enum Mode {
     Raster,
     /// Light by rays, in real time.
     Pathtrace,
+    /// Light by rays without any bias, however long it takes.
+    Reference,
 }
 
 impl Mode {
@@ -27,6 +30,16 @@ impl Mode {
         match self {
             Mode::Raster => "raster",
             Mode::Pathtrace => "pathtrace",
+            Mode::Reference => "reference",
+        }
+    }
+
+    /// As the renderer has it.
+    pub fn of_renderer(self) -> render::Mode {
+        match self {
+            Mode::Raster => render::Mode::Raster,
+            Mode::Pathtrace => render::Mode::Pathtrace,
+            Mode::Reference => render::Mode::Reference,
         }
     }
 }
@@ -85,6 +98,70 @@ impl DeviceArguments {
     }
 }
 
+/// How one of many lights is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LightChoice {
+    /// By what it may bring, several candidates by what they bring unshadowed
+    Resampled,
+    /// All with equal chances
+    Uniform,
+}
+
+/// How light is found.
+#[derive(Debug, Args)]
+pub struct LightArguments {
+    /// Bounces of light between surfaces (pathtrace)
+    #[arg(long, value_name = "N", default_value_t = 1, env = "AFTERGLOW_BOUNCES", value_parser = clap::value_parser!(u32).range(0..=63))]
+    pub bounces: u32,
+    /// How one of many lights is chosen
+    #[arg(
+        long,
+        value_enum,
+        value_name = "HOW",
+        default_value = "resampled",
+        env = "AFTERGLOW_LIGHTS",
+        hide_short_help = true
+    )]
+    pub lights: LightChoice,
+    /// Candidates of which one light is kept
+    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_CANDIDATES", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub candidates: u32,
+    /// Lights that a sample asks at the surface that is seen (pathtrace)
+    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_ASKED", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub asked: u32,
+    /// Choose lights for each pixel and frame alone (pathtrace)
+    #[arg(long, hide_short_help = true)]
+    pub no_reuse: bool,
+    /// Radiance that a sample brings at most; `inf` for no limit (pathtrace)
+    #[arg(long, value_name = "RADIANCE", default_value_t = 16.0, env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
+    pub limit: f32,
+    /// Leave the noise of few samples in the picture
+    #[arg(long)]
+    pub no_filter: bool,
+}
+
+impl LightArguments {
+    /// Tells a renderer.
+    pub fn apply(&self, options: &mut render::PathtraceOptions) {
+        options.surfaces = self.bounces + 1;
+        options.light_choice = match self.lights {
+            LightChoice::Resampled => render::LightChoice::Resampled,
+            LightChoice::Uniform => render::LightChoice::Uniform,
+        };
+        (options.candidates, options.asked) = (self.candidates, self.asked);
+        options.keeps_lights = !self.no_reuse && self.lights == LightChoice::Resampled;
+        options.most_radiance = self.limit;
+        options.filter = !self.no_filter;
+    }
+}
+
+fn limit(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(limit) if limit > 0.0 => Ok(limit),
+        _ => Err(format!("'{text}' is no radiance above 0")),
+    }
+}
+
 /// What is known of the program beforehand.
 #[derive(Debug, Args)]
 pub struct ProfileArguments {
@@ -107,6 +184,26 @@ impl ProfileArguments {
     /// The profile for the program that a trace is of, if the trace says which.
     pub fn load_for_trace(&self, trace: &Path) -> Result<Option<Arc<Profile>>, Failure> {
         self.load(traced_program(trace)?.as_deref())
+    }
+}
+
+/// Images that take the place of the program's textures.
+#[derive(Debug, Args)]
+pub struct ImageArguments {
+    /// Folder of images that take the place of the program's textures, each named after its texture's hash; the default is
+    /// the profile's, if it has one (pathtrace)
+    #[arg(long, value_name = "DIR", env = "AFTERGLOW_REPLACE_IMAGES")]
+    pub replace_images: Option<PathBuf>,
+}
+
+impl ImageArguments {
+    /// The folder; one that is asked for must be there.
+    pub fn folder(&self, profile: Option<&Profile>) -> Result<Option<PathBuf>, Failure> {
+        if let Some(folder) = &self.replace_images {
+            std::fs::read_dir(folder).map_err(|error| Failure::input(folder, error))?;
+            return std::path::absolute(folder).map(Some).map_err(|error| Failure::input(folder, error));
+        }
+        Ok(profile.and_then(|profile| profile.images.clone()))
     }
 }
 

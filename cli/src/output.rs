@@ -3,6 +3,8 @@
 use std::io::{self, BufWriter, ErrorKind, Stdout, Write};
 use std::path::Path;
 
+use afterglow_metrics::Image;
+
 use crate::failure::Failure;
 
 /// Writes text to standard output. That whoever reads has gone away (`| head`) is no failure.
@@ -32,9 +34,12 @@ pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Fail
 
 /// Writes a picture of RGBA bytes, top row first.
 pub fn write_picture(path: &Path, size: (u32, u32), rgba: &[u8]) -> Result<(), Failure> {
-    let failed =
-        |error: &dyn std::fmt::Display| Failure::output(path, std::io::Error::other(error.to_string()));
-    let image = afterglow_metrics::Image::from_rgba8(size.0 as usize, size.1 as usize, rgba)
-        .map_err(|error| failed(&error))?;
-    afterglow_metrics::io::save(&image, path).map_err(|error| failed(&error))
+    let image = Image::from_rgba8(size.0 as usize, size.1 as usize, rgba)
+        .map_err(|error| Failure::output(path, io::Error::other(error)))?;
+    write_image(path, &image)
+}
+
+/// Writes a picture in the format that its name ends in.
+pub fn write_image(path: &Path, image: &Image) -> Result<(), Failure> {
+    afterglow_metrics::io::save(image, path).map_err(|error| Failure::output(path, io::Error::other(error)))
 }

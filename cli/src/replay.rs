@@ -7,14 +7,17 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use afterglow_player::{Player, TraceSummary};
-use afterglow_render::{Displaced, Paint, PathtraceOptions};
+use afterglow_render::{Displaced, ImageOptions, Paint, PathtraceOptions};
 use afterglow_scene::Relighting;
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::{self, Failure};
-use crate::options::{Baked, DeviceArguments, Frames, KeepArguments, Mode, ProfileArguments, Size};
+use crate::options::{
+    Baked, DeviceArguments, Frames, ImageArguments, KeepArguments, LightArguments, Mode, ProfileArguments,
+    Size,
+};
 use crate::output;
 use report::Report;
 use session::Session;
@@ -51,9 +54,8 @@ pub struct Arguments {
     /// Print figures: frame rate, passes, calls
     #[arg(long)]
     stats: bool,
-    /// Leave the noise of few samples in the picture
-    #[arg(long)]
-    no_filter: bool,
+    #[command(flatten)]
+    light: LightArguments,
     /// Do not search for the light sources that baked light comes from
     #[arg(long)]
     no_relight: bool,
@@ -66,6 +68,8 @@ pub struct Arguments {
     /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none (pathtrace)
     #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
     pub memory: u32,
+    #[command(flatten)]
+    images: ImageArguments,
     #[command(flatten)]
     keep: KeepArguments,
     /// Move light I by X,Y,Z (world units), to see its shadows follow
@@ -107,11 +111,13 @@ impl Arguments {
     fn pathtrace_options(&self) -> Result<PathtraceOptions, Failure> {
         let mut options = PathtraceOptions::default();
         (options.spp, options.seed) = (self.spp, self.seed);
-        options.filter = !self.no_filter;
+        self.light.apply(&mut options);
         // Frames wait for it, so that a trace always gives the same pictures.
         options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
         options.replacing = self.baked.replacing();
         options.profile = self.profile.load_for_trace(&self.trace)?;
+        let folder = self.images.folder(options.profile.as_deref())?;
+        options.images = folder.map(|folder| ImageOptions { folder, waits: true });
         options.memory_bytes = u64::from(self.memory) << 20;
         options.cache = self.keep.cache_for_trace(&self.trace)?;
         options.paint = self.paint.map_or(Paint::Picture, View::paint);
@@ -177,7 +183,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         if frames.contains(&frame) {
             let wanted = (frame - frames.start).is_multiple_of(arguments.every);
             let finished = session.finish_frame()?;
-            report.frame(frame, &finished);
+            report.frame(frame, arguments.mode, &finished);
             if let Some(folder) = arguments.out.as_ref().filter(|_| wanted) {
                 let path = folder.join(format!("frame-{frame:06}.{}", arguments.format.extension()));
                 output::write_picture(&path, finished.size, &finished.pixels)?;
@@ -214,14 +220,7 @@ fn conclude(
     if let Some(path) = &arguments.json {
         output::write_json(path, report)?;
     }
-    let messages = session.validation_messages();
-    if !messages.is_empty() {
-        return Err(Failure::Check(format!(
-            "validation: {} messages\n{}",
-            messages.len(),
-            messages.join("\n")
-        )));
-    }
+    failure::validation(&session.validation_messages())?;
     if let Some(failure) = &summary.failure {
         return Err(Failure::input(&arguments.trace, format!("{failure}; what comes before was played")));
     }

@@ -21,6 +21,7 @@ pub(crate) fn line(figures: Figures, mode: Mode, size: (u32, u32), report: &Fram
     let mode = match mode {
         Mode::Raster => "raster",
         Mode::Pathtrace => "pathtrace",
+        Mode::Reference => "reference",
     };
     let Figures { rate, latency, .. } = figures;
     let mut line = format!("{rate:.1} fps  {:.1} ms  latency {latency:.1} ms", 1000.0 / rate.max(1e-3));

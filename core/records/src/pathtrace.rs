@@ -51,7 +51,28 @@ shared_struct! {
         pub emission_map: u32,
         /// What of its colour is baked light that traced light takes the place of: a `BAKE_` constant.
         pub bake: u32,
-        pub padding: u32,
+        /// The light that its first triangle is, the next one's follows; [`NO_LIGHT`] if they are none.
+        pub first_light: u32,
+        /// Albedo in place of all colours, linear RGB; below 0 if there is none. Such a surface shines from its front only.
+        pub base_color: [f32; 3],
+        /// How its maps are to be read: see `MapWord`.
+        pub maps: u32,
+    }
+}
+
+packed_words! {
+    /// How a surface's maps are to be read: all fields are 0 for those that the program names.
+    pub struct MapWord: "maps", 1 {
+        word 0 {
+            /// The texture unit whose coordinates they are read with.
+            unit: 2,
+            /// 1 if how much is metal is in the normal map's alpha, and not in the blue of `metallic_roughness_map`.
+            metal_in_normal: 1,
+            /// 1 if roughness is in the emission map's alpha, and not in the green of `metallic_roughness_map`.
+            roughness_in_emission: 1,
+            /// 1 if the normal map has x and y only.
+            normal_of_two: 1,
+        }
     }
 }
 
@@ -82,26 +103,49 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// A light source.
+    /// A light source. Those infinitely far come first in the list.
     pub struct LightSource {
-        /// Where it is, or the unit vector to it if it is infinitely far.
+        /// Where it is (of a triangle: its first corner), or the unit vector to it if it is infinitely far.
         pub position: [f32; 3],
-        /// Radius of the sphere that shines; of a far light the tangent of its angular radius.
+        /// Radius of the sphere that shines; of a far light the sine of its angular radius. 0 for triangles.
         pub radius: f32,
-        /// Linear RGB that a facing white surface shows.
+        /// Linear RGB: radiance of spheres and triangles; of others what a facing white surface shows, where falloff is 1.
         pub color: [f32; 3],
-        /// 1 if it has a place, 0 if it is infinitely far.
-        pub has_place: u32,
-        /// Constant, linear, quadratic falloff.
+        /// A `LIGHT_` constant.
+        pub kind: u32,
+        /// Of OpenGL's lights: constant, linear, quadratic falloff.
         pub attenuation: [f32; 3],
         /// Cosine of the spot's cut-off; -1 when it is no spot.
         pub spot_cos_cutoff: f32,
         /// Unit vector along which a spot shines.
         pub spot_axis: [f32; 3],
         pub spot_exponent: f32,
-        /// Linear RGB of the highlight on a mirror-like white surface.
-        pub specular: [f32; 3],
+        /// From a triangle's first corner to its second and third.
+        pub edge_1: [f32; 3],
+        pub edge_2: [f32; 3],
+        /// Turns from the root of the light tree, the first in the lowest bit: 1 is to the second child.
+        pub trail: u32,
         /// Unused.
+        pub padding: u32,
+    }
+}
+
+shared_struct! {
+    /// A node of the tree over lights with a place. The first child of an inner node follows it.
+    pub struct LightNode {
+        /// The box of all its lights.
+        pub least: [f32; 3],
+        /// Luminance that they bring to a facing white surface one unit away, were there no falloff but by area.
+        pub power: f32,
+        pub greatest: [f32; 3],
+        /// The second child's number; of a leaf the light's, with [`LIGHT_LEAF`].
+        pub next: u32,
+        /// Axis of the cone that holds the normals of lights that shine to one side.
+        pub axis: [f32; 3],
+        /// Cosine of the cone's half angle; -1 where lights shine everywhere.
+        pub cos_spread: f32,
+        /// Falloff, the mean of its lights by power.
+        pub attenuation: [f32; 3],
         pub padding: u32,
     }
 }
@@ -117,6 +161,17 @@ shared_struct! {
         pub members: u64,
         /// [`LightSource`]s.
         pub lights: u64,
+        /// [`LightNode`]s.
+        pub light_nodes: u64,
+        /// [`TraceCounters`].
+        pub counters: u64,
+        /// Of each pixel the mean radiance and what its variance follows from ([`RadianceTexel`]); `reference` only.
+        pub radiance: u64,
+        /// [`ReservoirTexel`]s of this frame and of the one before; 0 where lights are not kept from frame to frame, or were not.
+        pub reservoirs: u64,
+        pub reservoirs_before: u64,
+        /// [`SurfaceTexel`]s of the frame before.
+        pub surfaces_before: u64,
         /// The top level.
         pub world: u64,
         /// [`SurfaceTexel`]s, one a pixel, rows from the top.
@@ -144,8 +199,20 @@ shared_struct! {
         pub bake_scale: f32,
         /// How much of what surfaces then reflect reaches others; below 0 where baked light is not replaced.
         pub bounce: [f32; 3],
-        pub padding: u32,
+        /// Lights infinitely far.
+        pub far_count: u32,
         pub light_count: u32,
+        /// Surfaces of a path that scatter, at most.
+        pub most_surfaces: u32,
+        /// Lights that are asked at the first surface, of those with a place.
+        pub asked: u32,
+        /// Candidates of which one light is kept.
+        pub candidates: u32,
+        /// Combination of `TRACE_` constants.
+        pub traits: u32,
+        /// Radiance that one sample brings at most, where it is limited.
+        pub most_radiance: f32,
+        pub padding: u32,
         /// Samples a pixel of this frame.
         pub samples: u32,
         /// Samples a pixel that [`ViewRecord::light`] holds already.
@@ -174,6 +241,12 @@ shared_struct! {
         pub pixel_origin: [f32; 3],
         pub pixel_right: [f32; 3],
         pub pixel_down: [f32; 3],
+        /// Positions to clip space of the frame before, rows of a 4x4 matrix.
+        pub clip_before: [[f32; 4]; 4],
+        /// What is added to positions of the frame before to be relative to this one's camera.
+        pub origin_before: [f32; 3],
+        /// Frames traced before this one.
+        pub frame_number: u32,
     }
 }
 
@@ -204,6 +277,46 @@ shared_struct! {
         pub indirect: [f32; 3],
         /// Radiance of highlights.
         pub specular: [f32; 3],
+    }
+}
+
+shared_struct! {
+    /// What a pixel of `reference` has gathered.
+    pub struct RadianceTexel {
+        /// Mean radiance of all samples.
+        pub mean: [f32; 3],
+        /// Sum of squared differences from the mean (Welford, Note on a Method for Calculating Corrected Sums of Squares
+        /// and Products, 1962).
+        pub squares: [f32; 3],
+    }
+}
+
+shared_struct! {
+    /// A light that a pixel has kept of many, with the point of it, in the space of the numbers that choose the point.
+    pub struct ReservoirTexel {
+        pub light: u32,
+        /// The numbers, two unorm16.
+        pub point: u32,
+        /// What the light's sample is multiplied by in place of 1 over the chance of its choice.
+        pub weight: f32,
+        /// How many candidates it was kept of.
+        pub count: f32,
+        /// What it brings unshadowed, before the weight.
+        pub brings: f32,
+    }
+}
+
+shared_struct! {
+    /// What was left out of light, counted over a frame.
+    pub struct TraceCounters {
+        /// Samples that were no number.
+        pub non_finite: u32,
+        /// Samples that were limited.
+        pub limited: u32,
+        /// Luminance that limiting has removed, in units of 1/16.
+        pub removed: u32,
+        /// Rays.
+        pub rays: u32,
     }
 }
 
@@ -300,6 +413,31 @@ pub const BAKE_COLORS: u32 = 7;
 
 /// Of a [`SurfaceDraw`]: the program names no such map.
 pub const NO_MAP: u32 = u32::MAX;
+/// Of a [`SurfaceDraw`]: it is no light.
+pub const NO_LIGHT: u32 = u32::MAX;
+/// In the draw of a [`MeshMember`]: it is the light of this number and the next ones, spheres.
+pub const MEMBER_OF_LIGHTS: u32 = 1 << 31;
+/// In [`LightNode::next`]: it is a light's number.
+pub const LIGHT_LEAF: u32 = 1 << 31;
+
+/// Infinitely far: a disc if it has a radius, which rays that meet nothing see.
+pub const LIGHT_FAR: u32 = 0;
+/// A sphere's middle that shines as OpenGL has it, with a soft shadow: no ray meets it.
+pub const LIGHT_POINT: u32 = 1;
+/// A sphere that rays meet.
+pub const LIGHT_SPHERE: u32 = 2;
+/// A triangle that rays meet, shining from its front, or from both sides.
+pub const LIGHT_TRIANGLE: u32 = 3;
+pub const LIGHT_TRIANGLE_BOTH: u32 = 4;
+
+/// In [`ViewRecord::traits`]: numbers are independent, not of a sequence.
+pub const TRACE_INDEPENDENT: u32 = 1;
+/// Likewise: a light is chosen among all with equal chances.
+pub const TRACE_UNIFORM_LIGHTS: u32 = 2;
+/// Likewise: no sample is limited.
+pub const TRACE_UNLIMITED: u32 = 4;
+/// Likewise: paths end at random by what they carry.
+pub const TRACE_ROULETTE: u32 = 8;
 
 /// Instances that never move.
 pub const MASK_STATIC: u32 = 1;

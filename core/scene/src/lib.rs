@@ -42,7 +42,7 @@ mod types;
 mod views;
 mod world;
 
-pub use color::linear_from_srgb;
+pub use color::{linear_from_srgb, srgb_from_linear};
 pub use images::ImageFacts;
 pub use phase::Phase;
 pub use profile::{Profile, ProfileChoice, ProfileError, shipped as shipped_profiles};

@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 232 bytes
+struct SurfaceDraw { // 248 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -28,7 +28,9 @@ struct SurfaceDraw { // 232 bytes
     uint metallic_roughness_map;
     uint emission_map;
     uint bake;
-    uint padding;
+    uint first_light;
+    vec3 base_color;
+    uint maps;
 };
 #endif
 
@@ -42,27 +44,49 @@ struct MeshMember { // 8 bytes
 
 #ifndef STRUCT_LightSource
 #define STRUCT_LightSource
-struct LightSource { // 80 bytes
+struct LightSource { // 96 bytes
     vec3 position;
     float radius;
     vec3 color;
-    uint has_place;
+    uint kind;
     vec3 attenuation;
     float spot_cos_cutoff;
     vec3 spot_axis;
     float spot_exponent;
-    vec3 specular;
+    vec3 edge_1;
+    vec3 edge_2;
+    uint trail;
+    uint padding;
+};
+#endif
+
+#ifndef STRUCT_LightNode
+#define STRUCT_LightNode
+struct LightNode { // 64 bytes
+    vec3 least;
+    float power;
+    vec3 greatest;
+    uint next;
+    vec3 axis;
+    float cos_spread;
+    vec3 attenuation;
     uint padding;
 };
 #endif
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 240 bytes
+struct ViewRecord { // 392 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
     uint64_t lights;
+    uint64_t light_nodes;
+    uint64_t counters;
+    uint64_t radiance;
+    uint64_t reservoirs;
+    uint64_t reservoirs_before;
+    uint64_t surfaces_before;
     uint64_t world;
     uint64_t surfaces;
     uint64_t light;
@@ -77,8 +101,14 @@ struct ViewRecord { // 240 bytes
     uint albedo;
     float bake_scale;
     vec3 bounce;
-    uint padding;
+    uint far_count;
     uint light_count;
+    uint most_surfaces;
+    uint asked;
+    uint candidates;
+    uint traits;
+    float most_radiance;
+    uint padding;
     uint samples;
     uint accumulated;
     uint seed;
@@ -94,6 +124,9 @@ struct ViewRecord { // 240 bytes
     vec3 pixel_origin;
     vec3 pixel_right;
     vec3 pixel_down;
+    mat4 clip_before;
+    vec3 origin_before;
+    uint frame_number;
 };
 #endif
 
@@ -115,6 +148,35 @@ struct LightTexel { // 36 bytes
     vec3 direct;
     vec3 indirect;
     vec3 specular;
+};
+#endif
+
+#ifndef STRUCT_RadianceTexel
+#define STRUCT_RadianceTexel
+struct RadianceTexel { // 24 bytes
+    vec3 mean;
+    vec3 squares;
+};
+#endif
+
+#ifndef STRUCT_TraceCounters
+#define STRUCT_TraceCounters
+struct TraceCounters { // 16 bytes
+    uint non_finite;
+    uint limited;
+    uint removed;
+    uint rays;
+};
+#endif
+
+#ifndef STRUCT_ReservoirTexel
+#define STRUCT_ReservoirTexel
+struct ReservoirTexel { // 20 bytes
+    uint light;
+    uint point;
+    float weight;
+    float count;
+    float brings;
 };
 #endif
 
@@ -161,11 +223,32 @@ struct ViewPush { // 32 bytes
 #define blend_destination(w) (((w) >> 5) & 0xfu)
 #define BLEND_EQUATION_WORD 0
 #define blend_equation(w) (((w) >> 9) & 0x7u)
+#define MAPS_WORDS 1
+#define MAPS_UNIT_WORD 0
+#define maps_unit(w) (((w) >> 0) & 0x3u)
+#define MAPS_METAL_IN_NORMAL_WORD 0
+#define maps_metal_in_normal(w) (((w) >> 2) & 0x1u)
+#define MAPS_ROUGHNESS_IN_EMISSION_WORD 0
+#define maps_roughness_in_emission(w) (((w) >> 3) & 0x1u)
+#define MAPS_NORMAL_OF_TWO_WORD 0
+#define maps_normal_of_two(w) (((w) >> 4) & 0x1u)
 #define MASK_STATIC 1u
 #define MASK_MOVING 2u
 #define MASK_VIEW_MODEL 4u
 #define MEMBER_SHIFT 20u
 #define NO_MAP 4294967295u
+#define LIGHT_FAR 0u
+#define LIGHT_LEAF 2147483648u
+#define LIGHT_POINT 1u
+#define LIGHT_SPHERE 2u
+#define LIGHT_TRIANGLE 3u
+#define LIGHT_TRIANGLE_BOTH 4u
+#define MEMBER_OF_LIGHTS 2147483648u
+#define NO_LIGHT 4294967295u
+#define TRACE_INDEPENDENT 1u
+#define TRACE_ROULETTE 8u
+#define TRACE_UNIFORM_LIGHTS 2u
+#define TRACE_UNLIMITED 4u
 
 #define SURFACE_NONE 0u
 #define SURFACE_LIT 1u

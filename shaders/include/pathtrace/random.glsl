@@ -1,5 +1,6 @@
 // Random numbers by pixel, sample and dimension, the same in every run: Sobol points, their order and
-// digits scrambled by hashes (Burley, Practical Hash-based Owen Scrambling, JCGT 2020).
+// digits scrambled by hashes (Burley, Practical Hash-based Owen Scrambling, JCGT 2020), or, where errors must be known,
+// numbers that are independent of each other. The twin of core/sampling/src/random.rs.
 
 #ifndef AFTERGLOW_PATHTRACE_RANDOM_GLSL
 #define AFTERGLOW_PATHTRACE_RANDOM_GLSL
@@ -43,6 +44,26 @@ vec2 random_2d(Random random, uint dimension) {
     point.x = owen_scramble(point.x, hash(seed ^ 0x55555555u));
     point.y = owen_scramble(point.y, hash(seed ^ 0xaaaaaaaau));
     return vec2(point >> 8) * (1.0 / 16777216.0);
+}
+
+// Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 2020: pcg4d.
+uvec4 pcg4d(uvec4 value) {
+    value = value * 1664525u + 1013904223u;
+    value.x += value.y * value.w;
+    value.y += value.z * value.x;
+    value.z += value.x * value.y;
+    value.w += value.y * value.z;
+    value ^= value >> 16;
+    value.x += value.y * value.w;
+    value.y += value.z * value.x;
+    value.z += value.x * value.y;
+    value.w += value.y * value.z;
+    return value;
+}
+
+// Four numbers in [0, 1), multiples of 2^-24, independent of those of any other pixel, sample, dimension or seed.
+vec4 independent(uint pixel, uint sample_index, uint dimension, uint seed) {
+    return vec4(pcg4d(uvec4(pixel, sample_index, dimension, seed)) >> 8) * (1.0 / 16777216.0);
 }
 
 #endif

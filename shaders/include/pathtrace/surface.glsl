@@ -30,6 +30,11 @@ uint surface_ray_mask(SurfaceTexel surface) {
     return surface.emission >> 28;
 }
 
+// Whether a surface scatters light diffusely: metals do not.
+bool has_diffuse_lobe(SurfaceTexel surface) {
+    return (surface.albedo & 0xffffffu) != 0u || (surface.specular & 0xffffffu) == 0u;
+}
+
 // Whether traced light takes the place of baked light.
 bool is_relit(ViewRecord view) {
     return view.bounce.x >= 0.0;

@@ -10,12 +10,16 @@ TABLE(ViewTable, ViewRecord);
 TABLE(SurfaceDrawTable, SurfaceDraw);
 TABLE(MemberTable, MeshMember);
 TABLE(LightSourceTable, LightSource);
+TABLE(LightNodeTable, LightNode);
 
 #define TEXELS(NAME, TYPE) \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer NAME { TYPE entries[]; }
 
 TEXELS(SurfaceTexels, SurfaceTexel);
 TEXELS(LightTexels, LightTexel);
+TEXELS(RadianceTexels, RadianceTexel);
+TEXELS(Reservoirs, ReservoirTexel);
+TEXELS(Counters, TraceCounters);
 TEXELS(ColorTexels, vec4);
 TEXELS(ExposureSums, ExposureSum);
 TEXELS(MoverSums, MoverSum);

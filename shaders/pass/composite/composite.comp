@@ -82,11 +82,18 @@ void main() {
     uint index = pixel.y * view.width + pixel.x;
     SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
     if (surface_kind(surface) == SURFACE_NONE) {
+        if (view.radiance != 0ul) {
+            RadianceTexels(view.radiance).entries[index] = RadianceTexel(view.sky, vec3(0.0));
+        }
         return;
     }
     LightTexel light = LightTexels(view.light).entries[index];
     vec3 indirect = ColorTexels(view.indirect).entries[index].rgb;
     vec4 program = imageLoad(color_images[view.color], ivec2(pixel));
+    if (view.radiance != 0ul) {
+        vec3 linear = radiance(surface, light, indirect, linear_from_srgb(program.rgb));
+        RadianceTexels(view.radiance).entries[index] = RadianceTexel(linear, vec3(0.0));
+    }
     vec3 shown = view.paint == PAINT_PICTURE
         ? composited(view, surface, light, indirect, program.rgb, pixel) : painted(view, surface, light, indirect);
     imageStore(color_images[view.color], ivec2(pixel), vec4(clamp(shown, 0.0, 1.0), program.a));

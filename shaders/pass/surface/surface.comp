@@ -11,6 +11,7 @@
 
 #include "fixed/fog.glsl"
 #include "pathtrace/color.glsl"
+#include "pathtrace/materials.glsl"
 #include "pathtrace/said.glsl"
 #include "pathtrace/surface.glsl"
 #include "pathtrace/vertices.glsl"
@@ -92,18 +93,9 @@ uint byte_of(float value) {
     return uint(clamp(value, 0.0, 1.0) * 255.0 + 0.5);
 }
 
-// Specular colour and shininess of a material that the program says (`albedo` is linear). The highlight is that of
-// OpenGL's lighting, made as wide and as bright as a rough surface's (Blinn's exponent by the roughness squared, Walter
-// and others, Microfacet Models for Refraction, 2007; normalized as in Akenine-Moeller and others, Real-Time Rendering,
-// section 9.8).
-uint said_highlight(vec3 albedo, float roughness, float metallic) {
-    float alpha = max(roughness * roughness, 0.01);
-    float exponent = max(2.0 / (alpha * alpha) - 2.0, 0.0);
-    // Light is found with the falloff in sRGB, as OpenGL has it, where 1 / 2.2 of an exponent falls as far.
-    float shininess = min(exponent / 2.2, 128.0);
-    vec3 facing = mix(vec3(0.04), albedo, metallic);
-    vec3 strength = facing * (2.2 * shininess + 8.0) / 8.0;
-    return pack_color(srgb_from_linear(clamp(strength, 0.0, 1.0)), byte_of(shininess / 128.0));
+// Reflectance straight on (linear) and roughness of the specular lobe.
+uint pack_lobe(vec3 specular, float roughness) {
+    return pack_color(srgb_from_linear(specular), byte_of(roughness));
 }
 
 // Texels, as a power of two, along a unit of a map's coordinates, so that one of them is as wide as a pixel.
@@ -137,7 +129,7 @@ vec3 mapped_normal(vec3 texel, vec3 normal, vec3 world[3], vec2 coordinates[3]) 
 
 // Lets what the program says of the material count. `albedo` is in sRGB, and the emission that the texel has so far.
 void apply_said(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, vec3 world[3], float away,
-    vec3 albedo, inout vec3 emission, inout SurfaceTexel texel) {
+    inout vec3 albedo, inout vec3 emission, inout SurfaceTexel texel) {
     vec2 coordinates[3];
     [[dont_unroll]] for (uint i = 0u; i < 3u; ++i) {
         vec3 corner = vec3(i == 0u ? 1.0 : 0.0, i == 1u ? 1.0 : 0.0, i == 2u ? 1.0 : 0.0);
@@ -146,15 +138,14 @@ void apply_said(ViewRecord view, DrawReference draw, uint triangle, vec3 weights
     float texels = seen_texels(view, world, coordinates, away);
     vec2 here = coordinates[0] * weights.x + coordinates[1] * weights.y + coordinates[2] * weights.z;
     if (draw.it.normal_map != NO_MAP) {
-        vec3 turned = map_texel(draw.it.normal_map, here, texels).rgb;
+        vec3 turned = map_normal(draw, here, texels);
         texel.normal = pack_unit_vector(mapped_normal(turned, unpack_unit_vector(texel.normal), world, coordinates));
     }
     if (draw.it.roughness >= 0.0) {
-        vec2 varied = vec2(draw.it.roughness, draw.it.metallic);
-        if (draw.it.metallic_roughness_map != NO_MAP) {
-            varied *= map_texel(draw.it.metallic_roughness_map, here, texels).gb;
-        }
-        texel.specular = said_highlight(linear_from_srgb(albedo), varied.x, varied.y);
+        vec2 varied = said_roughness_metallic(draw, here, texels);
+        Bsdf bsdf = rough_bsdf(linear_from_srgb(albedo), varied.x, varied.y);
+        texel.specular = pack_lobe(bsdf.specular, varied.x);
+        albedo = srgb_from_linear(bsdf.diffuse);
     }
     vec3 given_off = said_emission(view, draw, triangle, weights, texels);
     emission = srgb_from_linear(min(linear_from_srgb(emission) + given_off, 1.0));
@@ -195,7 +186,8 @@ SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint tr
         MaterialFace material = point_material(view, draw, state, color);
         // Textures are over all of a material, but for highlights that are added after them.
         vec3 specular = state.separate_specular ? material.specular.rgb : material.specular.rgb * albedo;
-        texel.specular = pack_color(clamp(specular, 0.0, 1.0), byte_of(material.shininess / 128.0));
+        vec4 lobe = highlight_lobe(linear_from_srgb(clamp(specular, 0.0, 1.0)), material.shininess);
+        texel.specular = pack_lobe(lobe.rgb, lobe.w);
         emission = clamp(material.emission.rgb, 0.0, 1.0) * albedo;
         albedo *= clamp(material.diffuse.rgb, 0.0, 1.0);
     }

@@ -9,8 +9,10 @@ mod lists;
 use afterglow_gl::frame::{CLIP_PLANES, GlobalWords, LIGHTS, SLOTS, STATE_WORDS, TEXTURE_UNITS, UnitWords};
 use afterglow_layout::StructDescription;
 use afterglow_records::{
-    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_MASK, BAKE_NONE, BAKE_SHIFT, BlendWord, MASK_MOVING,
-    MASK_STATIC, MASK_VIEW_MODEL, MEMBER_SHIFT, NO_MAP, WHITE_ALBEDO,
+    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_MASK, BAKE_NONE, BAKE_SHIFT, BlendWord, LIGHT_FAR,
+    LIGHT_LEAF, LIGHT_POINT, LIGHT_SPHERE, LIGHT_TRIANGLE, LIGHT_TRIANGLE_BOTH, MASK_MOVING, MASK_STATIC,
+    MASK_VIEW_MODEL, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MapWord, NO_LIGHT, NO_MAP, TRACE_INDEPENDENT,
+    TRACE_ROULETTE, TRACE_UNIFORM_LIGHTS, TRACE_UNLIMITED, WHITE_ALBEDO,
 };
 
 use self::constants::{enumerations, record_enumerations, surface_enumerations};
@@ -70,8 +72,23 @@ pub fn pathtrace() -> String {
         ("MASK_VIEW_MODEL", MASK_VIEW_MODEL),
         ("MEMBER_SHIFT", MEMBER_SHIFT),
         ("NO_MAP", NO_MAP),
+        ("LIGHT_FAR", LIGHT_FAR),
+        ("LIGHT_LEAF", LIGHT_LEAF),
+        ("LIGHT_POINT", LIGHT_POINT),
+        ("LIGHT_SPHERE", LIGHT_SPHERE),
+        ("LIGHT_TRIANGLE", LIGHT_TRIANGLE),
+        ("LIGHT_TRIANGLE_BOTH", LIGHT_TRIANGLE_BOTH),
+        ("MEMBER_OF_LIGHTS", MEMBER_OF_LIGHTS),
+        ("NO_LIGHT", NO_LIGHT),
+        ("TRACE_INDEPENDENT", TRACE_INDEPENDENT),
+        ("TRACE_ROULETTE", TRACE_ROULETTE),
+        ("TRACE_UNIFORM_LIGHTS", TRACE_UNIFORM_LIGHTS),
+        ("TRACE_UNLIMITED", TRACE_UNLIMITED),
     ];
-    let mut text = structures(&lists::pathtrace()) + "\n" + &BlendWord::description().glsl();
+    let mut text = structures(&lists::pathtrace())
+        + "\n"
+        + &BlendWord::description().glsl()
+        + &MapWord::description().glsl();
     for (name, value) in masks {
         text += &format!("#define {name} {value}u\n");
     }

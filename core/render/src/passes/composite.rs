@@ -19,6 +19,9 @@ pub(crate) fn declare(
         .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)
         .read_write(frame.color, Access::StorageWriteCompute)
         .when(!needs.is_idle, IDLE_REASON);
+    if let Some(radiance) = views.radiance {
+        pass.write(radiance, Access::StorageWriteCompute);
+    }
     if needs.has_movers {
         pass.read(views.movers, Access::StorageReadCompute);
     }

@@ -11,5 +11,7 @@ pub(crate) mod light;
 pub(crate) mod pixels;
 pub(crate) mod raster;
 pub(crate) mod readback;
+pub(crate) mod reference;
+pub(crate) mod reservoir;
 pub(crate) mod surface;
 pub(crate) mod transfers;

@@ -5,7 +5,9 @@ use afterglow_gpu::{
     BindlessKind, BindlessTable, Buffer, BufferDesc, BufferKind, Gpu, GpuError, Image, ImageDesc, vk,
 };
 use afterglow_layout::SharedStruct;
-use afterglow_records::{Exposure, ExposureSum, LightTexel, MoverSum, SurfaceTexel};
+use afterglow_records::{
+    Exposure, ExposureSum, LightTexel, MoverSum, RadianceTexel, ReservoirTexel, SurfaceTexel, TraceCounters,
+};
 
 use crate::target::{COLOR_FORMAT, Target};
 
@@ -42,7 +44,10 @@ pub(crate) struct ViewBuffers {
     color: vk::Image,
     /// Bindless index of the window's colour as a storage image.
     pub(crate) color_index: u32,
-    pub(crate) surfaces: Tracked,
+    /// Of this frame and of the one before, which one is which by the frame's number.
+    pub(crate) surfaces: [Tracked; 2],
+    /// Likewise; none before lights were first kept.
+    pub(crate) reservoirs: Option<[Tracked; 2]>,
     /// Of each view of a frame.
     pub(crate) light: Vec<Tracked>,
     pub(crate) indirect: [Tracked; 2],
@@ -50,6 +55,9 @@ pub(crate) struct ViewBuffers {
     pub(crate) exposure: Tracked,
     /// Sums of moving draws among baked surfaces.
     pub(crate) movers: Tracked,
+    pub(crate) counters: Tracked,
+    /// Linear pictures, once one was asked for.
+    pub(crate) radiance: Option<Tracked>,
 }
 
 impl ViewBuffers {
@@ -69,7 +77,11 @@ impl ViewBuffers {
             visibility: TrackedImage { image: visibility, state: ResourceState::UNDEFINED },
             color: target.color.raw(),
             color_index: storage_index(table, &target.color)?,
-            surfaces: buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
+            surfaces: [
+                buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
+                buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
+            ],
+            reservoirs: None,
             light: Vec::new(),
             indirect: [
                 buffer("indirect", pixels * INDIRECT_BYTES)?,
@@ -78,6 +90,8 @@ impl ViewBuffers {
             sums: buffer("exposure sums", u64::from(sum_count(size)) * stride::<ExposureSum>())?,
             exposure: buffer("exposure", stride::<Exposure>())?,
             movers: buffer("mover sums", stride::<MoverSum>())?,
+            counters: buffer("trace counters", stride::<TraceCounters>())?,
+            radiance: None,
         })
     }
 
@@ -91,6 +105,25 @@ impl ViewBuffers {
         while self.light.len() < views {
             let bytes = pixels(self.size) * stride::<LightTexel>();
             self.light.push(Tracked::new(gpu, "light", bytes)?);
+        }
+        Ok(())
+    }
+
+    /// Makes sure that there is a linear picture.
+    pub(crate) fn reserve_radiance(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        if self.radiance.is_none() {
+            let bytes = pixels(self.size) * stride::<RadianceTexel>();
+            self.radiance = Some(Tracked::new(gpu, "radiance", bytes)?);
+        }
+        Ok(())
+    }
+
+    /// Makes sure that lights can be kept.
+    pub(crate) fn reserve_reservoirs(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        if self.reservoirs.is_none() {
+            let bytes = pixels(self.size) * stride::<ReservoirTexel>();
+            let buffer = || Tracked::new(gpu, "reservoirs", bytes);
+            self.reservoirs = Some([buffer()?, buffer()?]);
         }
         Ok(())
     }

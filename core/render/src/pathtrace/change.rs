@@ -5,6 +5,7 @@ use afterglow_records::{LightSource, SurfaceDraw};
 use afterglow_scene::{Camera, Scene};
 use xxhash_rust::xxh3::Xxh3;
 
+use super::estimator::Estimator;
 use super::options::PathtraceOptions;
 
 /// Samples of a pixel after which more change nothing that 8 bits show.
@@ -22,6 +23,7 @@ impl ChangeHasher {
         camera: &Camera,
         scene: &Scene,
         lights: &[LightSource],
+        estimator: &Estimator,
         options: &PathtraceOptions,
     ) -> Self {
         let mut hasher = Xxh3::new();
@@ -31,7 +33,10 @@ impl ChangeHasher {
         hasher.update(bytemuck::bytes_of(&scene.sky.to_array()));
         hasher.update(bytemuck::bytes_of(&scene.ambient.to_array()));
         hasher.update(bytemuck::cast_slice(lights));
-        hasher.update(format!("{options:?}").as_bytes());
+        hasher.update(format!("{estimator:?}").as_bytes());
+        // Frames may differ in their number of samples, and still add up.
+        let without_samples = PathtraceOptions { spp: 0, ..options.clone() };
+        hasher.update(format!("{without_samples:?}").as_bytes());
         Self { hasher, last: None }
     }
 
@@ -91,13 +96,15 @@ pub(crate) struct History {
     hash: u64,
     /// Samples a pixel.
     samples: u32,
+    /// The number of the frame in which it began.
+    begun: u32,
 }
 
 impl History {
     /// Goes on from the last frame, or begins anew. Returns how many samples there are already.
-    pub(crate) fn advance(&mut self, hash: u64, may_continue: bool, samples: u32) -> u32 {
+    pub(crate) fn advance(&mut self, hash: u64, may_continue: bool, samples: u32, frame: u32) -> u32 {
         if !may_continue || self.hash != hash || self.samples >= MOST_SAMPLES {
-            *self = Self { hash, samples: 0 };
+            *self = Self { hash, samples: 0, begun: frame };
         }
         let before = self.samples;
         self.samples += samples;
@@ -107,6 +114,11 @@ impl History {
     /// Samples a pixel, those of the frame that was advanced to included.
     pub(crate) fn samples(&self) -> u32 {
         self.samples
+    }
+
+    /// The number of the frame in which it began.
+    pub(crate) fn begun(&self) -> u32 {
+        self.begun
     }
 
     /// What was gathered is gone.
@@ -122,12 +134,12 @@ mod tests {
     #[test]
     fn samples_add_up_until_something_changes() {
         let mut history = History::default();
-        assert_eq!(history.advance(5, true, 4), 0);
-        assert_eq!(history.advance(5, true, 4), 4);
-        assert_eq!(history.advance(6, true, 4), 0);
-        assert_eq!(history.advance(6, true, 4), 4);
-        assert_eq!(history.advance(6, false, 4), 0);
+        assert_eq!(history.advance(5, true, 4, 0), 0);
+        assert_eq!(history.advance(5, true, 4, 0), 4);
+        assert_eq!(history.advance(6, true, 4, 0), 0);
+        assert_eq!(history.advance(6, true, 4, 0), 4);
+        assert_eq!(history.advance(6, false, 4, 0), 0);
         history.forget();
-        assert_eq!(history.advance(6, true, 4), 0);
+        assert_eq!(history.advance(6, true, 4, 0), 0);
     }
 }

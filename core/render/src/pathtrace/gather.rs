@@ -5,22 +5,24 @@ use std::ops::Range;
 use afterglow_gl::frame::{Draw, Frame, HintMaterial, Topology};
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
 use afterglow_records::{
-    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_NONE, BAKE_SHIFT, SurfaceDraw, SurfaceKind,
-    WHITE_ALBEDO,
+    BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_NONE, BAKE_SHIFT, NO_LIGHT, NO_MAP, SurfaceDraw,
+    SurfaceKind, WHITE_ALBEDO,
 };
-use afterglow_scene::{BakedInto, Class, Relit, Verdict};
-use glam::{DVec3, Mat4};
+use afterglow_scene::{BakedInto, Class, Relit, SceneLight, Verdict};
+use glam::{DVec3, Mat4, Vec3};
 
 use super::arrange::Mark;
 use super::geometry::GeometryReader;
-use super::lights::Highlights;
+use super::lights::{LightList, MOST_TRIANGLES, ShiningTriangle};
 use super::options::{Displaced, PathtraceOptions};
+use super::replaced::ReplacedMaps;
 use super::said::SaidMaterial;
 use super::surfaces::{LayerFinder, Lighting, Located, has_holes, masks, surface_draw};
 use super::tracer::Tracing;
 use super::world::{Traced, relative};
 use crate::bindings::{Lookup, image_word};
 use crate::passes::raster::{DrawMark, RasterState};
+use crate::replacements::Replacements;
 use crate::tables::Scratch;
 use crate::textures::Textures;
 use crate::uploads::UploadArena;
@@ -34,6 +36,7 @@ pub(crate) struct TraceInput<'a> {
     pub(crate) scratch: &'a Scratch,
     pub(crate) raster: &'a mut RasterState,
     pub(crate) textures: &'a Textures,
+    pub(crate) replacements: Option<&'a Replacements>,
     pub(crate) table: &'a BindlessTable,
     pub(crate) arena: &'a mut UploadArena,
 }
@@ -47,12 +50,25 @@ pub(crate) struct Surfaces<'a> {
     pub(crate) seen: usize,
     /// What each draw of the frame leaves in the visibility buffer.
     pub(crate) marks: Vec<DrawMark>,
-    pub(crate) highlights: Highlights,
+    /// Triangles that shine, draw by draw; their records name the first one by its number here.
+    shining: Vec<ShiningTriangle>,
+    pub(crate) lights: LightList,
     /// Of each traced draw: its operation, and how light is found for it.
     kinds: Vec<(usize, SurfaceKind)>,
 }
 
 impl Surfaces<'_> {
+    /// Makes the list of lights, and names those that are triangles in their records.
+    pub(crate) fn list_lights(&mut self, lights: &[SceneLight], origin: DVec3, options: &PathtraceOptions) {
+        self.lights = LightList::new(lights, &self.shining, origin, options.move_light);
+        let first = self.lights.first_triangle;
+        for record in &mut self.records {
+            if record.first_light != NO_LIGHT {
+                record.first_light += first as u32;
+            }
+        }
+    }
+
     /// How light is found for the draws of a view.
     pub(crate) fn kinds_within(&self, operations: &Range<usize>) -> Vec<SurfaceKind> {
         let within = |(operation, _): &&(usize, SurfaceKind)| operations.contains(operation);
@@ -146,7 +162,6 @@ impl<'a> Gatherer<'a, '_> {
             traced.mask = 0;
         }
         self.surfaces.seen = self.surfaces.traced.len();
-        self.surfaces.highlights.note(self.input.frame, place.draw);
         self.surfaces.kinds.push((place.operation, kind));
         // Among baked surfaces the colours of what moves are a guess at its light.
         let is_white = kind == SurfaceKind::BakedMover;
@@ -168,12 +183,18 @@ impl<'a> Gatherer<'a, '_> {
     ) -> Result<(u32, SurfaceKind), GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let hint = self.input.frame.hint(place.draw);
-        let has_material = hint.is_some_and(|hint| hint.material != HintMaterial::default());
+        let is_said = hint.is_some_and(|hint| hint.material != HintMaterial::default());
+        let has_material =
+            is_said || ReplacedMaps::are_there(self.input.replacements, self.input.frame, place.draw);
         let is_baked = verdict.baked || place.bake != BAKE_NONE;
-        let kind = self.lighting.kind(&Verdict { baked: is_baked, ..*verdict }, words, has_material);
+        let kind = match hint.and_then(|hint| hint.material.base_color) {
+            Some(_) => SurfaceKind::Lit,
+            None => self.lighting.kind(&Verdict { baked: is_baked, ..*verdict }, words, has_material),
+        };
         let (mask, meets) = masks(verdict.class, kind);
         let surface = self.record(place, verdict, kind, meets)?;
         let triangles = self.geometry.read(self.input.frame, place.draw);
+        self.shine(place, verdict, surface);
         self.layers.add(surface, &triangles);
         self.surfaces.traced.push(Traced {
             surface,
@@ -185,6 +206,26 @@ impl<'a> Gatherer<'a, '_> {
             block,
         });
         Ok((surface, kind))
+    }
+
+    /// Makes lights of a draw's triangles if all of them shine alike.
+    fn shine(&mut self, place: &Place<'a>, verdict: &Verdict, surface: u32) {
+        let record = &mut self.surfaces.records[surface as usize];
+        let is_alike = record.emission != [0.0; 3] && record.emission_map == NO_MAP;
+        let count = place.draw.index_count as usize / 3;
+        let shining = &mut self.surfaces.shining;
+        if !is_alike || shining.len() + count > MOST_TRIANGLES {
+            return;
+        }
+        record.first_light = shining.len() as u32;
+        let (radiance, is_one_sided) = (record.emission, record.base_color[0] >= 0.0);
+        let corners = self.geometry.corners(self.input.frame, place.draw);
+        let (model, origin) = (verdict.model.as_dmat4(), self.origin);
+        let place =
+            |corner: &[f32; 3]| (model.transform_point3(Vec3::from(*corner).as_dvec3()) - origin).as_vec3();
+        shining.extend(self.geometry.corners[corners].as_chunks::<3>().0.iter().map(|corners| {
+            ShiningTriangle { corners: corners.each_ref().map(place), radiance, is_one_sided }
+        }));
     }
 
     /// A layer matters to rays only where it lies on a surface that they meet.
@@ -222,6 +263,7 @@ impl<'a> Gatherer<'a, '_> {
         let mut lookup = Lookup {
             frame: input.frame,
             textures: input.textures,
+            replacements: input.replacements,
             samplers: &mut input.raster.samplers,
             table: input.table,
         };
@@ -237,6 +279,7 @@ impl<'a> Gatherer<'a, '_> {
         let rows = relative(&verdict.model, self.origin);
         let record = surface_draw(input.frame, draw, located, rows, kind, ray_mask, number);
         let record = material.write(SurfaceDraw { bake: place.bake, ..record });
+        let record = ReplacedMaps::of(&mut lookup, draw)?.write(record);
         self.surfaces.records.push(record);
         Ok(number)
     }

@@ -5,28 +5,44 @@
 //! them. All else of the frame is rasterized as in `raster` mode.
 
 pub(crate) mod arrange;
+mod backend;
 pub(crate) mod buffers;
 mod change;
+mod compaction;
+mod driver_input;
+mod estimator;
 mod gather;
 mod geometry;
+mod hardware;
+mod kept;
+mod light_cone;
+mod light_tree;
 mod lights;
-pub(crate) mod meshes;
+mod meshes;
 mod options;
 mod pipelines;
 mod prepare;
+mod program;
+mod radiance;
 mod rays;
 mod record;
+mod replaced;
 mod said;
 pub(crate) mod schedule;
 mod slabs;
+pub(crate) mod structures;
 mod surfaces;
 mod tracer;
 mod unseen;
 mod world;
 
+pub use backend::Backend;
 pub(crate) use gather::TraceInput;
-pub use options::{Displaced, Mode, PathtraceOptions};
+pub use options::{Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Target};
+#[cfg(feature = "reload")]
+pub(crate) use pipelines::TracePipelines;
 pub use prepare::TraceCounts;
 pub(crate) use prepare::{PreparedTrace, prepare};
+pub use radiance::Radiance;
 pub(crate) use record::TraceContext;
 pub(crate) use tracer::{Tracer, Tracing, Understood};

@@ -1,10 +1,13 @@
 //! How a renderer traces.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use afterglow_records::Paint;
 use afterglow_scene::{Class, MEMORY_BYTES, Profile, ProgramCache, Relighting, Replacing};
 use glam::Vec3;
+
+use super::backend::Backend;
 
 /// What a frame becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -14,6 +17,44 @@ pub enum Mode {
     Raster,
     /// The same with the world's light traced.
     Pathtrace,
+    /// The same with light that adds up without any bias: no limit, no filter, as many bounces as are asked for.
+    Reference,
+}
+
+/// How far light is followed in [`Mode::Reference`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Target {
+    /// What lights bring to the surfaces that are seen, and what shines itself.
+    Direct,
+    /// One bounce more.
+    Bounce1,
+    /// All bounces. Paths end at random from the fifth surface on, and after [`Target::MOST_SURFACES`] at the latest: then
+    /// a closed world of albedo a has a share of a^64 less light than it should.
+    #[default]
+    Full,
+}
+
+impl Target {
+    /// Surfaces that a path may scatter at.
+    pub const MOST_SURFACES: u32 = 64;
+
+    pub(crate) fn surfaces(self) -> u32 {
+        match self {
+            Self::Direct => 1,
+            Self::Bounce1 => 2,
+            Self::Full => Self::MOST_SURFACES,
+        }
+    }
+}
+
+/// How one of many lights is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LightChoice {
+    /// By what it may bring, and several candidates by what they bring unshadowed.
+    #[default]
+    Resampled,
+    /// All with equal chances: what others are measured by.
+    Uniform,
 }
 
 /// Which traced draws are displaced.
@@ -25,10 +66,39 @@ pub enum Displaced {
     Class(Class),
 }
 
+/// Where images that take the place of textures come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImageOptions {
+    /// The folder. It is looked at every second.
+    pub folder: PathBuf,
+    /// Whether frames wait for the images that they need, so that a trace always gives the same pictures.
+    pub waits: bool,
+}
+
 /// How to trace.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PathtraceOptions {
+    /// What traces rays.
+    pub backend: Backend,
+    /// How far light is followed in [`Mode::Reference`].
+    pub target: Target,
+    /// Surfaces that a path may scatter at in [`Mode::Pathtrace`], the seen one included. Light that comes by more is missing,
+    /// but for the program's ambient light.
+    pub surfaces: u32,
+    /// How one of many lights is chosen.
+    pub light_choice: LightChoice,
+    /// Candidates of which one light is kept, 1 to 8.
+    pub candidates: u32,
+    /// Lights with a place that each sample asks at the seen surface, 1 to 4.
+    pub asked: u32,
+    /// Of many lights, pixels keep one from frame to frame and lend it to their neighbours, in [`Mode::Pathtrace`].
+    pub keeps_lights: bool,
+    /// Radiance that a sample may bring in each channel in [`Mode::Pathtrace`]; infinite for no limit. What that removes is
+    /// counted.
+    pub most_radiance: f32,
+    /// Keep the linear picture, before exposure, for [`Renderer::read_radiance`](crate::Renderer::read_radiance).
+    pub keeps_radiance: bool,
     /// Samples a pixel and frame, at least 1.
     pub spp: u32,
     /// Of all randomness: equal seeds give equal pictures.
@@ -48,6 +118,9 @@ pub struct PathtraceOptions {
     /// Where worlds and their recovered lights are kept for the next run of the program; nowhere if none. It holds
     /// from the first frame on, like the profile.
     pub cache: Option<ProgramCache>,
+    /// Images that take the place of the program's textures; none if it is not said. They hold for a renderer from the first
+    /// time on that it is said.
+    pub images: Option<ImageOptions>,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -59,6 +132,15 @@ pub struct PathtraceOptions {
 impl Default for PathtraceOptions {
     fn default() -> Self {
         Self {
+            backend: Backend::Software,
+            target: Target::Full,
+            surfaces: 2,
+            light_choice: LightChoice::Resampled,
+            candidates: 4,
+            asked: 4,
+            keeps_lights: true,
+            most_radiance: 16.0,
+            keeps_radiance: false,
             spp: 2,
             seed: 0,
             filter: true,
@@ -68,6 +150,7 @@ impl Default for PathtraceOptions {
             replacing: Replacing::WhereGood,
             memory_bytes: MEMORY_BYTES,
             cache: None,
+            images: None,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

@@ -36,6 +36,7 @@ impl SaidMaterial {
         let metallic = without(self.metallic_roughness_map, record.metallic);
         let [roughness, metallic] = self.said.roughness_metallic.unwrap_or([roughness, metallic]);
         SurfaceDraw {
+            base_color: self.said.base_color.unwrap_or([-1.0; 3]),
             emission: self.said.emission.unwrap_or([without(self.emission_map, 0.0); 3]),
             roughness,
             metallic,

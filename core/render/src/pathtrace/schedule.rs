@@ -2,15 +2,21 @@
 
 use afterglow_frame_graph::{GraphBuilder, ResourceId};
 
+use super::backend::Backend;
 use super::buffers::ViewBuffers;
-use crate::passes::{build, composite, exposure, filter, light, surface};
+use crate::passes::{build, composite, exposure, filter, light, reference, reservoir, surface};
 use crate::schedule::Resources;
 
 /// What a pass of a view records; the number is the view's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TraceWork {
     Build,
+    ClearCounters,
+    /// Radiance by the camera's own rays.
+    Reference(usize),
     Surface(usize),
+    /// Which light of many each pixel keeps.
+    Reservoir(usize),
     Light(usize),
     /// A step of the filter, of so many.
     Filter(usize, u32),
@@ -23,6 +29,12 @@ pub(crate) enum TraceWork {
 /// What of a view's light is needed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ViewNeeds {
+    /// The camera's own rays see it: nothing else is needed of it.
+    pub(crate) is_reference: bool,
+    /// Whether pixels keep lights from frame to frame, and why not.
+    pub(crate) keeps_lights: Result<(), &'static str>,
+    /// The frame before has left lights.
+    pub(crate) has_lights_before: bool,
     /// Nothing in the picture would change by light.
     pub(crate) is_idle: bool,
     /// Steps of the filter.
@@ -53,15 +65,22 @@ pub(crate) const IDLE_REASON: &str = "nothing moves among surfaces with baked li
 /// The graph's resources that belong to views.
 #[derive(Debug, Clone)]
 pub(crate) struct ViewResources {
+    /// What shoots rays.
+    pub(crate) backend: Backend,
     pub(crate) visibility: ResourceId,
     pub(crate) albedo: ResourceId,
     pub(crate) world: ResourceId,
     pub(crate) surfaces: ResourceId,
+    pub(crate) surfaces_before: ResourceId,
+    /// This frame's and those of the one before.
+    pub(crate) reservoirs: Option<[ResourceId; 2]>,
     pub(crate) light: Vec<ResourceId>,
     pub(crate) indirect: [ResourceId; 2],
     pub(crate) sums: ResourceId,
     pub(crate) exposure: ResourceId,
     pub(crate) movers: ResourceId,
+    pub(crate) counters: ResourceId,
+    pub(crate) radiance: Option<ResourceId>,
 }
 
 impl ViewResources {
@@ -70,6 +89,8 @@ impl ViewResources {
         graph: &mut GraphBuilder,
         buffers: &ViewBuffers,
         world: afterglow_frame_graph::ResourceState,
+        backend: Backend,
+        parity: usize,
     ) -> Self {
         use afterglow_frame_graph::{Format, ImageDesc, ResourceDesc};
         let visibility = &buffers.visibility;
@@ -83,18 +104,33 @@ impl ViewResources {
             graph.import(name, ResourceDesc::Buffer { bytes }, tracked.state)
         };
         let resources = Self {
+            backend,
             visibility,
             albedo,
             world,
-            surfaces: import("surfaces", &buffers.surfaces),
+            surfaces: import("surfaces", &buffers.surfaces[parity]),
+            surfaces_before: import("surfaces before", &buffers.surfaces[1 - parity]),
+            reservoirs: buffers.reservoirs.as_ref().map(|both| {
+                [import("reservoirs", &both[parity]), import("reservoirs before", &both[1 - parity])]
+            }),
             light: buffers.light.iter().map(|light| import("light", light)).collect(),
             indirect: [import("indirect", &buffers.indirect[0]), import("indirect", &buffers.indirect[1])],
             sums: import("exposure sums", &buffers.sums),
             exposure: import("exposure", &buffers.exposure),
             movers: import("mover sums", &buffers.movers),
+            counters: import("trace counters", &buffers.counters),
+            radiance: buffers.radiance.as_ref().map(|radiance| import("radiance", radiance)),
         };
         graph.output(resources.world);
         graph.output(resources.exposure);
+        graph.output(resources.counters);
+        graph.output(resources.surfaces);
+        for resource in resources.reservoirs.into_iter().flatten() {
+            graph.output(resource);
+        }
+        if let Some(radiance) = resources.radiance {
+            graph.output(radiance);
+        }
         for light in &resources.light {
             graph.output(*light);
         }
@@ -110,14 +146,25 @@ pub(crate) fn declare_view(
     views: &ViewResources,
     view: usize,
     needs: &ViewNeeds,
-    has_new_meshes: bool,
+    has_builds: bool,
 ) {
     if view == 0 {
         work.push(TraceWork::Build);
-        build::declare(graph, views, has_new_meshes);
+        build::declare(graph, views, has_builds);
+        work.push(TraceWork::ClearCounters);
+        light::declare_clear(graph, views);
+    }
+    if needs.is_reference {
+        if view == 0 {
+            work.push(TraceWork::Reference(view));
+            reference::declare(graph, frame, views, needs);
+        }
+        return;
     }
     work.push(TraceWork::Surface(view));
     surface::declare(graph, frame, views, needs);
+    work.push(TraceWork::Reservoir(view));
+    reservoir::declare(graph, frame, views, needs);
     work.push(TraceWork::Light(view));
     light::declare(graph, frame, views, view, needs);
     for step in 0..needs.filter_steps {

@@ -2,7 +2,7 @@
 
 use afterglow_gl::frame::{Compare, Draw, FixedState, Frame, StateWords};
 use afterglow_records::{
-    BAKE_NONE, BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, NO_MAP,
+    BAKE_NONE, BlendWord, DrawPush, DrawRecord, MASK_MOVING, MASK_STATIC, MASK_VIEW_MODEL, NO_LIGHT, NO_MAP,
     SurfaceDraw, SurfaceKind,
 };
 use afterglow_scene::{Class, LightOrigin, Scene, Verdict};
@@ -123,7 +123,9 @@ pub(crate) fn surface_draw(
         metallic_roughness_map: NO_MAP,
         emission_map: NO_MAP,
         bake: BAKE_NONE,
-        padding: 0,
+        first_light: NO_LIGHT,
+        base_color: [-1.0; 3],
+        maps: 0,
     }
 }
 

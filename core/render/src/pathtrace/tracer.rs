@@ -10,7 +10,8 @@ use afterglow_scene::{Recovery, Scene};
 use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
 use super::change::History;
-use super::options::PathtraceOptions;
+use super::kept::KeptLights;
+use super::options::{Mode, PathtraceOptions};
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
 use super::schedule::{ExposureUse, ViewResources};
@@ -35,10 +36,14 @@ pub(crate) struct Tracing {
     pub(crate) arrangement: Arrangement,
     /// Operations of the frame that are rasterized; what comes after them is for rays alone.
     pub(crate) rasterized: usize,
+    /// The scene is all that there is: in `reference` mode rays of the camera see it, and no draw.
+    pub(crate) is_staged: bool,
 }
 
 /// Path tracing of one window.
 pub(crate) struct Tracer {
+    /// `Pathtrace` or `Reference`.
+    pub(crate) mode: Mode,
     pub(crate) options: PathtraceOptions,
     pub(crate) recovery: Recovery,
     pub(crate) world: WorldBuilder,
@@ -49,6 +54,9 @@ pub(crate) struct Tracer {
     pub(crate) buffers: Option<ViewBuffers>,
     /// Of each view.
     pub(crate) history: Vec<History>,
+    pub(crate) kept: KeptLights,
+    /// The last frame was seen by rays of the camera.
+    pub(crate) has_camera_rays: bool,
     /// An earlier frame has found an exposure.
     pub(crate) has_exposure: bool,
     /// What was handed over of the frame that is going on.
@@ -64,6 +72,7 @@ impl Tracer {
     pub(crate) fn new(
         gpu: &Gpu,
         table: &BindlessTable,
+        mode: Mode,
         options: PathtraceOptions,
     ) -> Result<Option<Self>, GpuError> {
         let features = gpu.features();
@@ -74,51 +83,80 @@ impl Tracer {
             tracing::warn!("the device cannot number triangles: frames are rasterized");
             return Ok(None);
         }
-        let pipelines = Arc::new(TracePipelines::new(gpu, table)?);
-        Ok(Some(Self::with(gpu, options, pipelines)))
+        let pipelines = Arc::new(TracePipelines::new(gpu, table, options.backend)?);
+        Self::with(gpu, mode, options, pipelines).map(Some)
     }
 
     /// Traces otherwise from now on.
-    pub(crate) fn set_options(&mut self, options: &PathtraceOptions) {
+    ///
+    /// # Errors
+    /// If the device lacks another backend that is asked for: nothing has changed then.
+    pub(crate) fn set_options(
+        &mut self,
+        gpu: &Gpu,
+        table: &BindlessTable,
+        mode: Mode,
+        options: &PathtraceOptions,
+    ) -> Result<(), GpuError> {
+        if options.backend != self.options.backend {
+            let world = WorldBuilder::new(gpu, options.backend)?;
+            self.pipelines = Arc::new(TracePipelines::new(gpu, table, options.backend)?);
+            self.world = world;
+        }
+        self.mode = mode;
         self.options = options.clone();
         self.recovery.set_memory(options.memory_bytes);
+        Ok(())
     }
 
     /// For another window of the same renderer.
-    pub(crate) fn beside(&self, gpu: &Gpu) -> Self {
-        Self::with(gpu, self.options.clone(), self.pipelines.clone())
+    pub(crate) fn beside(&self, gpu: &Gpu) -> Result<Self, GpuError> {
+        Self::with(gpu, self.mode, self.options.clone(), self.pipelines.clone())
     }
 
-    fn with(gpu: &Gpu, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
+    fn with(
+        gpu: &Gpu,
+        mode: Mode,
+        options: PathtraceOptions,
+        pipelines: Arc<TracePipelines>,
+    ) -> Result<Self, GpuError> {
+        let world = WorldBuilder::new(gpu, options.backend)?;
         let mut recovery = Recovery::with_profile(options.profile.clone())
             .with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);
         if let Some(cache) = &options.cache {
             recovery.set_cache(cache);
         }
-        Self {
+        Ok(Self {
+            mode,
             options,
             recovery,
-            world: WorldBuilder::new(gpu),
+            world,
             world_state: ResourceState::SETTLED,
             pipelines,
             buffers: None,
             history: Vec::new(),
+            kept: KeptLights::default(),
+            has_camera_rays: false,
             has_exposure: false,
             parts: Parts::None,
             has_begun_unseen: false,
             before: None,
-        }
+        })
     }
 
     /// Judges a frame, and puts it in order if it has a world.
     pub(crate) fn understand(&mut self, frame: &mut Frame) -> Understood {
         let scene = self.recovery.understand(frame);
-        self.stage(frame, scene)
+        self.put_in_order(frame, scene, false)
     }
 
     /// Puts a frame in order whose scene is known.
-    pub(crate) fn stage(&mut self, frame: &mut Frame, mut scene: Scene) -> Understood {
+    pub(crate) fn stage(&mut self, frame: &mut Frame, scene: Scene) -> Understood {
+        self.put_in_order(frame, scene, true)
+    }
+
+    fn put_in_order(&mut self, frame: &mut Frame, mut scene: Scene, is_staged: bool) -> Understood {
         if scene.cut {
             self.forget();
             self.has_exposure = false;
@@ -130,7 +168,7 @@ impl Tracer {
             arrangement.apply(frame, &mut scene);
             let rasterized = frame.operations.len();
             unseen::append(frame, &mut scene, &mut arrangement);
-            Tracing { scene, arrangement, rasterized }
+            Tracing { scene, arrangement, rasterized, is_staged }
         });
         Understood { report, tracing }
     }
@@ -147,7 +185,7 @@ impl Tracer {
             if let Some(old) = self.buffers.take() {
                 old.release(table);
             }
-            self.history.iter_mut().for_each(History::forget);
+            self.forget();
             self.has_exposure = false;
             self.buffers = Some(ViewBuffers::new(gpu, table, target)?);
         }
@@ -171,9 +209,19 @@ impl Tracer {
         if let Some(buffers) = &mut self.buffers {
             keep(&mut buffers.visibility.state, resources.visibility);
             keep(&mut buffers.albedo.state, resources.albedo);
-            keep(&mut buffers.surfaces.state, resources.surfaces);
+            let parity = prepared.parity;
+            keep(&mut buffers.surfaces[parity].state, resources.surfaces);
+            keep(&mut buffers.surfaces[1 - parity].state, resources.surfaces_before);
+            if let (Some(both), Some([now, before])) = (&mut buffers.reservoirs, resources.reservoirs) {
+                keep(&mut both[parity].state, now);
+                keep(&mut both[1 - parity].state, before);
+            }
             keep(&mut buffers.sums.state, resources.sums);
             keep(&mut buffers.movers.state, resources.movers);
+            keep(&mut buffers.counters.state, resources.counters);
+            if let (Some(radiance), Some(resource)) = (&mut buffers.radiance, resources.radiance) {
+                keep(&mut radiance.state, resource);
+            }
             keep(&mut buffers.exposure.state, resources.exposure);
             for (light, resource) in buffers.light.iter_mut().zip(&resources.light) {
                 keep(&mut light.state, *resource);
@@ -188,6 +236,7 @@ impl Tracer {
 
     /// After a frame that was not recorded: what its passes would have left is not there.
     pub(crate) fn forget(&mut self) {
+        self.kept.forget();
         self.history.iter_mut().for_each(History::forget);
     }
 }

@@ -3,22 +3,25 @@
 //! A draw of a retained range is a mesh of its own, built once; so is a block of remembered ones. Other draws change, or are sent anew with every
 //! frame: those that share a matrix are one mesh, built again when any of them has changed.
 
-use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
-use afterglow_bvh::{Instance, TriangleAttributes, build_tlas};
 use afterglow_gl::frame::{Draw, Frame, VertexSource};
 use afterglow_gpu::{Gpu, GpuError};
-use afterglow_records::{MEMBER_SHIFT, MeshMember};
+use afterglow_records::{MASK_STATIC, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MeshMember};
 use glam::{DVec3, Mat4};
 use hashbrown::HashMap;
-use xxhash_rust::xxh3::Xxh3;
+use xxhash_rust::xxh3::{Xxh3, xxh3_64_with_seed};
 
+use super::backend::Backend;
 use super::geometry::{GeometryReader, Triangles};
-use super::meshes::Meshes;
+use super::lights::{Lamps, LightList};
+use super::structures::{Member, MeshInput, Placed, Shapes, Structures};
 use crate::uploads::UploadArena;
 
 /// Triangles of a member, and members of a mesh, that a hit's primitive can name.
 const MOST_TRIANGLES: u32 = 1 << MEMBER_SHIFT;
 const MOST_MEMBERS: usize = 1 << (32 - MEMBER_SHIFT);
+
+/// Seed of the hash of lamps: no draw has the same.
+const LAMPS: u64 = 0x6c61_6d70;
 
 /// A traced draw.
 #[derive(Debug, Clone)]
@@ -38,7 +41,7 @@ pub(crate) struct Traced<'a> {
 /// The top level and what its hits are numbered by, on the device.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct World {
-    pub(crate) tlas: u64,
+    pub(crate) top_level: u64,
     pub(crate) members: u64,
     pub(crate) instances: u32,
     /// The longest side of its box.
@@ -60,22 +63,24 @@ type GroupKey = ([u32; 16], u8, Option<u32>);
 
 /// Keeps meshes from frame to frame.
 pub(crate) struct WorldBuilder {
-    meshes: Meshes,
+    structures: Structures,
     pub(crate) geometry: GeometryReader,
 }
 
 impl WorldBuilder {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self { meshes: Meshes::new(gpu), geometry: GeometryReader::default() }
+    /// # Errors
+    /// If the device lacks the backend.
+    pub(crate) fn new(gpu: &Gpu, backend: Backend) -> Result<Self, GpuError> {
+        Ok(Self { structures: Structures::new(gpu, backend)?, geometry: GeometryReader::default() })
     }
 
-    pub(crate) fn begin_frame(&mut self) {
-        self.meshes.begin_frame();
+    pub(crate) fn begin_frame(&mut self) -> Result<(), GpuError> {
         self.geometry.begin_frame();
+        self.structures.begin_frame()
     }
 
-    pub(crate) fn meshes(&self) -> &Meshes {
-        &self.meshes
+    pub(crate) fn structures(&self) -> &Structures {
+        &self.structures
     }
 
     /// Builds the world as seen from `origin`, in world space.
@@ -83,43 +88,43 @@ impl WorldBuilder {
         &mut self,
         frame: &Frame,
         traced: &[Traced<'_>],
+        lights: &LightList,
         origin: DVec3,
         arena: &mut UploadArena,
     ) -> Result<World, GpuError> {
-        let mut members = Vec::new();
-        let mut instances = Vec::new();
-        for group in groups(traced) {
-            let content = content_of(&group, traced);
-            if !self.meshes.has(content) {
-                self.build_mesh(frame, &group, traced, content, arena)?;
-            }
-            let Some(mesh) = self.meshes.get(content) else { continue };
-            instances.push(Instance {
-                object_to_world: relative(&group.model, origin),
-                blas: mesh.address,
-                bounds: mesh.bounds,
-                id: members.len() as u32,
-                mask: group.mask,
-                flags: 0,
-            });
-            members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
+        let groups: Vec<_> =
+            groups(traced).into_iter().map(|group| (content_of(&group, traced), group)).collect();
+        // What is there is taken first: the rest may be made of what is not.
+        for (content, _) in &groups {
+            self.structures.take(*content);
         }
-        let tlas = match build_tlas(&instances) {
-            Ok(tlas) => tlas,
-            Err(error) => {
-                tracing::warn!("rays meet nothing: {error}");
-                members.clear();
-                build_tlas(&[]).unwrap_or_else(|_| unreachable!("no instances are not too many"))
+        let mut members = Vec::new();
+        let mut placed = Vec::new();
+        for (content, group) in &groups {
+            if !self.structures.has(*content) {
+                self.build_mesh(frame, group, traced, *content, arena)?;
             }
-        };
+            if self.structures.take(*content) {
+                placed.push(Placed {
+                    content: *content,
+                    object_to_world: relative(&group.model, origin),
+                    id: members.len() as u32,
+                    mask: group.mask,
+                });
+                members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
+            }
+        }
+        if let Some(lamps) = self.lamps(&lights.lamps, origin, members.len(), arena)? {
+            placed.push(lamps);
+            let first = lights.lamps.first_light as u32;
+            members.push(MeshMember { draw: MEMBER_OF_LIGHTS | first, first_triangle: 0 });
+        }
+        let top = self.structures.top_level(&placed, arena)?;
         Ok(World {
-            tlas: self.meshes.upload_once(&tlas.words, arena)?,
+            top_level: top.address,
             members: arena.push_table(&members)?.address,
-            instances: tlas.instance_count,
-            extent: match tlas.bounds.is_empty() {
-                true => 0.0,
-                false => (tlas.bounds.max - tlas.bounds.min).max_element(),
-            },
+            instances: top.instances,
+            extent: top.extent,
         })
     }
 
@@ -132,8 +137,7 @@ impl WorldBuilder {
         arena: &mut UploadArena,
     ) -> Result<(), GpuError> {
         let mut corners = Vec::new();
-        let mut attributes = Vec::new();
-        let mut first_member = 0;
+        let mut members = Vec::new();
         for &index in &group.draws {
             let traced = &traced[index];
             let mut range = traced.triangles.corners.clone();
@@ -141,15 +145,37 @@ impl WorldBuilder {
                 range = self.geometry.corners(frame, traced.draw);
             }
             corners.extend_from_slice(&self.geometry.corners[range]);
-            let flags = if traced.is_alpha_tested { FLAG_ALPHA_TESTED } else { 0 };
-            attributes.extend((0..traced.triangles.count).map(|triangle| TriangleAttributes {
-                primitive: ((first_member + triangle / MOST_TRIANGLES) << MEMBER_SHIFT)
-                    | (triangle % MOST_TRIANGLES),
-                flags,
+            members.extend(members_of(traced).map(|member| Member {
+                triangles: MOST_TRIANGLES.min(traced.triangles.count - member.first_triangle),
+                is_alpha_tested: traced.is_alpha_tested,
             }));
-            first_member += member_count(traced) as u32;
         }
-        self.meshes.build(content, &corners, &attributes, group.is_lasting, arena)
+        let shapes = Shapes::Triangles { corners: &corners, members: &members };
+        self.structures.build(content, &MeshInput { shapes, is_lasting: group.is_lasting }, arena)
+    }
+
+    /// The lights that are spheres, as one instance; `member` is the number of what its hits name.
+    fn lamps(
+        &mut self,
+        lamps: &Lamps,
+        origin: DVec3,
+        member: usize,
+        arena: &mut UploadArena,
+    ) -> Result<Option<Placed>, GpuError> {
+        if lamps.spheres.is_empty() || lamps.spheres.len() > MOST_TRIANGLES as usize {
+            return Ok(None);
+        }
+        let content = xxh3_64_with_seed(bytemuck::cast_slice(&lamps.spheres), LAMPS);
+        if !self.structures.has(content) {
+            let input = MeshInput { shapes: Shapes::Spheres(&lamps.spheres), is_lasting: true };
+            self.structures.build(content, &input, arena)?;
+        }
+        Ok(self.structures.take(content).then(|| Placed {
+            content,
+            object_to_world: relative(&Mat4::IDENTITY, origin - lamps.anchor),
+            id: member as u32,
+            mask: MASK_STATIC as u8,
+        }))
     }
 }
 
@@ -231,7 +257,7 @@ mod tests {
     }
 
     fn world(builder: &mut WorldBuilder, frame: &Frame) -> (World, usize) {
-        builder.begin_frame();
+        builder.begin_frame().unwrap();
         let mut arena = UploadArena::new(&gpu());
         let traced: Vec<_> = frame
             .draws()
@@ -249,13 +275,13 @@ mod tests {
                 block: None,
             })
             .collect();
-        let world = builder.build(frame, &traced, DVec3::ZERO, &mut arena).unwrap();
-        (world, builder.meshes().built)
+        let world = builder.build(frame, &traced, &LightList::default(), DVec3::ZERO, &mut arena).unwrap();
+        (world, builder.structures().built())
     }
 
     #[test]
     fn draws_of_one_matrix_are_one_mesh_that_is_built_when_it_changes() {
-        let mut builder = WorldBuilder::new(&gpu());
+        let mut builder = WorldBuilder::new(&gpu(), Backend::Software).unwrap();
         let (first, built) = world(&mut builder, &frame(0.25));
         assert_eq!((first.instances, built), (2, 6));
         assert_eq!(world(&mut builder, &frame(0.25)).1, 0);

@@ -1,8 +1,10 @@
 //! Frames built by hand, and what they must look like.
 
+mod backends;
 mod clears;
 mod fragments;
 mod hints;
+mod images;
 mod lighting;
 mod pathtrace;
 mod pixels;

@@ -1,0 +1,225 @@
+// Light that reaches each pixel's surface, by rays: one ray at a time, from one place in the code. light.comp and light.rgen
+// are this pass for the two backends of trace.glsl.
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_buffer_reference2 : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_nonuniform_qualifier : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+
+#include "trace.glsl"
+#include "pathtrace/reservoir.glsl"
+
+// How dark things that touch a surface with baked light make it.
+const float CONTACT_STRENGTH = 0.85;
+
+// Of baked surfaces among things that move: how much of the sky's and the recovered lights' light is left, and what these
+// would bring if nothing moved.
+struct Shade {
+    float contact;
+    vec3 direct;
+    vec3 unmoved;
+};
+
+// Sums over the samples of a pixel.
+struct Sums {
+    Channels light;
+    Shade shade;
+};
+
+Channels no_channels() {
+    return Channels(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+}
+
+// A sample's light, limited so that rare paths leave no bright dots; counted where it was.
+vec3 limited(ViewRecord view, vec3 light) {
+    float brightest = max(light.x, max(light.y, light.z));
+    if (!(brightest < 1e18)) {
+        atomicAdd(Counters(view.counters).entries[0].non_finite, 1u);
+        return vec3(0.0);
+    }
+    if ((view.traits & TRACE_UNLIMITED) != 0u || brightest <= view.most_radiance) {
+        return light;
+    }
+    vec3 kept = light * (view.most_radiance / brightest);
+    atomicAdd(Counters(view.counters).entries[0].limited, 1u);
+    atomicAdd(Counters(view.counters).entries[0].removed, uint(min(luminance(light - kept) * 16.0, 65536.0)));
+    return kept;
+}
+
+// Stages of a sample of a surface with baked light: contact, then one of the lights that were baked: first what stands still is
+// asked whether it hides it, then what moves.
+#define STAGE_CONTACT 0u
+#define STAGE_STILL 1u
+#define STAGE_MOVED 2u
+
+RayPlan plan_shade(ViewRecord view, inout Path path, PathRandom random, RayPlan asked) {
+    path.mask = path.stage == STAGE_STILL ? MASK_STATIC : MASK_MOVING;
+    if (path.stage == STAGE_MOVED) {
+        return asked;
+    }
+    vec4 numbers = path_numbers(view, random, path.stage);
+    if (path.stage == STAGE_CONTACT) {
+        vec3 direction = cosine_direction(path.at.normal, numbers.xy);
+        return RayPlan(direction, view.contact_reach, false, true, vec3(0.0), vec3(0.0), 0.0, false);
+    }
+    bool is_far = view.far_count != 0u && (placed_count(view) == 0u || numbers.x < 0.5);
+    float chance = 0.0;
+    bool is_both = view.far_count != 0u && placed_count(view) != 0u;
+    float number = is_both ? fract(2.0 * numbers.x) : numbers.x;
+    uint light = is_far ? chosen_far(view, path.at.normal, number, chance)
+        : chosen_placed(view, path.at.start, path.at.normal, number, chance);
+    float weight = chance > 0.0 ? (is_both ? 2.0 : 1.0) / chance : 0.0;
+    return shadow_plan(path, Asked(light_sample(light_source(view, light), path.at.start, numbers.yz), chance, weight));
+}
+
+void take_shade(ViewRecord view, inout Path path, inout RayPlan asked, RayPlan plan, bool met, float away, inout Shade shade) {
+    if (path.stage == STAGE_CONTACT) {
+        shade.contact += met ? 1.0 - CONTACT_STRENGTH * (1.0 - away / plan.reach) : 1.0;
+    } else if (plan.is_worth_it && !met) {
+        vec3 brought = limited(view, plan.diffuse);
+        shade.unmoved += path.stage == STAGE_STILL ? brought : vec3(0.0);
+        shade.direct += path.stage == STAGE_MOVED ? brought : vec3(0.0);
+    }
+    asked = path.stage == STAGE_STILL && !met ? plan : RayPlan(path.at.normal, 0.0, true, false, vec3(0.0), vec3(0.0), 0.0, false);
+    path.is_over = path.stage == STAGE_MOVED || view.light_count == 0u;
+    ++path.stage;
+}
+
+void add_sample(ViewRecord view, Channels light, inout Channels sums) {
+    sums.direct += limited(view, light.direct);
+    sums.indirect += limited(view, light.indirect);
+    sums.specular += limited(view, light.specular);
+    sums.open += light.open;
+}
+
+// The ray of a path's stage. Where lights are kept over time, the first surface asks by those.
+RayPlan plan_seen(ViewRecord view, inout Path path, PathRandom random, uvec2 pixel, uint kind) {
+    bool is_kept = view.reservoirs != 0ul && path.surfaces == 0u && path.stage < view.asked;
+    if (!is_kept) {
+        return plan_ray(view, path, random);
+    }
+    uint dimension = DIMENSION_ASKED + DIMENSIONS_ASKED * path.stage;
+    Asked asked = chosen_among_neighbours(view, path, random, dimension, pixel, kind);
+    asked.weight /= float(view.asked);
+    return shadow_plan(path, asked);
+}
+
+// The samples of a pixel. `seen` reflects what it is asked for: its albedo meets the light when the picture is made.
+Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mask, uint random_pixel) {
+    Sums sums = Sums(no_channels(), Shade(0.0, vec3(0.0), vec3(0.0)));
+    bool is_baked = kind == SURFACE_BAKED;
+    PathRandom random = PathRandom(Random(random_pixel, view.accumulated), view.seed);
+    vec3 to_viewer = unit_vector(-seen.start);
+    Path path = path_from(seen, to_viewer, mask);
+    Channels light = no_channels();
+    RayPlan asked = RayPlan(seen.normal, 0.0, true, false, vec3(0.0), vec3(0.0), 0.0, false);
+    uint done = 0u;
+    uint rays = 0u;
+    [[dont_unroll]] for (uint i = view.samples * most_rays(view); i != 0u && done < view.samples; --i) {
+        RayPlan plan;
+        if (is_baked) {
+            plan = plan_shade(view, path, random, asked);
+        } else {
+            plan = plan_seen(view, path, random, pixel, kind);
+        }
+        Hit hit;
+        bool met = false;
+        if (plan.is_worth_it) {
+            met = trace(view.world, path.at.start, plan.direction, plan.reach, path.mask, plan.is_shadow, hit);
+            ++rays;
+        }
+        if (is_baked) {
+            take_shade(view, path, asked, plan, met, hit.t, sums.shade);
+        } else {
+            take_ray(view, path, plan, met, hit, light);
+        }
+        if (path.is_over) {
+            add_sample(view, light, sums.light);
+            light = no_channels();
+            path = path_from(seen, to_viewer, mask);
+            ++random.random.sample_index;
+            ++done;
+        }
+    }
+    atomicAdd(Counters(view.counters).entries[0].rays, rays);
+    return sums;
+}
+
+// How much of a baked surface's light is left where moving things take some of it away. The bake adds up as the
+// program stored it, which is not linear light.
+vec3 light_left(ViewRecord view, Shade shade) {
+    float samples = float(view.samples);
+    vec3 contact = vec3(shade.contact / samples);
+    if (view.light_count == 0u) {
+        return contact;
+    }
+    vec3 diffuse = max(view.ambient + view.sky, 1e-3);
+    vec3 left = (diffuse * contact + shade.direct / samples) / (diffuse + shade.unmoved / samples);
+    return pow(clamp(left, 0.0, 1.0), vec3(2.2));
+}
+
+// The mean of a pixel's samples, as composition takes it.
+LightTexel found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel) {
+    uint kind = surface_kind(surface);
+    if (kind == SURFACE_BAKED && view.has_movers == 0u) {
+        return LightTexel(vec3(0.0), vec3(1.0), vec3(0.0));
+    }
+    SurfacePoint seen = seen_point(surface);
+    uint index = pixel.y * view.width + pixel.x;
+    Sums sums = gather(view, seen, pixel, kind, surface_ray_mask(surface), hash(index + hash(view.seed)));
+    if (kind == SURFACE_BAKED) {
+        return LightTexel(vec3(0.0), light_left(view, sums.shade), vec3(0.0));
+    }
+    float samples = float(view.samples);
+    Channels light = sums.light;
+    // What is baked has its constant part everywhere; elsewhere it comes from where nothing is.
+    bool is_replaced = kind == SURFACE_LIT && is_relit(view);
+    vec3 open = is_replaced ? view.sky : view.sky + view.ambient;
+    if (is_replaced) {
+        light.indirect = light.indirect * view.bounce + samples * view.ambient;
+    }
+    if (kind == SURFACE_BAKED_MOVER) {
+        // Where nothing was met there may be walls that were not drawn: it is no darker there than elsewhere.
+        open = max(open, light.indirect / max(samples - light.open, 1.0));
+    }
+    light.indirect += light.open * open;
+    if (kind == SURFACE_BAKED_MOVER) {
+        // Few samples and many lights: it is smoothed with the rest.
+        light.indirect += light.direct;
+        light.direct = vec3(0.0);
+    }
+    vec3 scale = vec3(1.0 / samples);
+    vec3 light_scale = scale;
+    if (kind == SURFACE_CATCHER) {
+        light_scale /= max(open_light(view, seen.start, seen.normal), 1e-3);
+    }
+    return LightTexel(light.direct * light_scale, light.indirect * light_scale, light.specular * scale);
+}
+
+void main() {
+    ViewRecord view = ViewTable(push.view).entries[0];
+    uvec2 pixel = invocation();
+    if (any(greaterThanEqual(pixel, view_size(view)))) {
+        return;
+    }
+    uint index = pixel.y * view.width + pixel.x;
+    SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
+    LightTexel light = LightTexel(vec3(0.0), vec3(0.0), vec3(0.0));
+    if (surface_kind(surface) != SURFACE_NONE) {
+        light = found_light(view, surface, pixel);
+        if (view.accumulated != 0u) {
+            LightTexel before = LightTexels(view.light).entries[index];
+            float share = float(view.samples) / float(view.accumulated + view.samples);
+            light.direct = mix(before.direct, light.direct, share);
+            light.indirect = mix(before.indirect, light.indirect, share);
+            light.specular = mix(before.specular, light.specular, share);
+        }
+    }
+    LightTexels(view.light).entries[index] = light;
+    // Kinds that must not be mixed are told apart by the sign of the depth.
+    uint kind = surface_kind(surface);
+    float depth = max(dot(view.forward, surface.start), 1e-20);
+    bool is_second = kind == SURFACE_CATCHER || kind == SURFACE_BAKED;
+    ColorTexels(push.target).entries[index] = vec4(light.indirect, kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth);
+}

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use afterglow_gpu::GpuOptions;
+use afterglow_render as render;
 use afterglow_scene::{Profile, ProfileChoice, ProfileError, ProgramCache, Replacing};
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
@@ -19,6 +20,8 @@ pub enum Mode {
     Raster,
     /// Light by rays, in real time.
     Pathtrace,
+    /// Light by rays without any bias, however long it takes.
+    Reference,
 }
 
 impl Mode {
@@ -27,6 +30,16 @@ impl Mode {
         match self {
             Mode::Raster => "raster",
             Mode::Pathtrace => "pathtrace",
+            Mode::Reference => "reference",
+        }
+    }
+
+    /// As the renderer has it.
+    pub fn of_renderer(self) -> render::Mode {
+        match self {
+            Mode::Raster => render::Mode::Raster,
+            Mode::Pathtrace => render::Mode::Pathtrace,
+            Mode::Reference => render::Mode::Reference,
         }
     }
 }

@@ -1,7 +1,9 @@
 //! `afterglow render`: makes pictures of a scene in a file.
 
 mod destination;
+mod pace;
 mod painter;
+mod progress;
 mod report;
 mod selection;
 
@@ -10,13 +12,13 @@ use std::time::{Duration, Instant};
 
 use afterglow_scene_file::{SceneFile, Stage};
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::{self, Failure};
 use crate::options::{DeviceArguments, Mode, Size, number};
 use crate::output;
 use destination::Destination;
 use painter::{Painter, Picture};
+use progress::Progress;
 use report::Report;
 use selection::{Frames, Selection};
 
@@ -34,11 +36,11 @@ pub struct Arguments {
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
     seed: u32,
-    /// Samples a pixel and frame; the default is 4
-    #[arg(long, value_name = "N", env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=1 << 24))]
+    /// Samples a pixel and frame; the default is 4, and in reference mode 64
+    #[arg(long, value_name = "N", env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
     spp: Option<u32>,
-    /// Render successive frames of a still scene for so long
-    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "frames")]
+    /// Render for so long: in reference mode each frame, unless it has its samples earlier, else successive frames of a still
+    #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<Duration>,
     /// Of a scene with a sequence: its frames A..B without B. Of a still: so many successive frames, of which the last is written
     #[arg(long, value_name = "N|A..B")]
@@ -47,6 +49,9 @@ pub struct Arguments {
     /// DIR/frame-%06d.npy
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
+    /// Also write the standard error of each pixel and channel, named like the picture (reference)
+    #[arg(long, value_name = "FILE")]
+    standard_error: Option<PathBuf>,
     /// Size of the picture; the default is the scene's
     #[arg(long, value_name = "WxH", env = "AFTERGLOW_SIZE")]
     size: Option<Size>,
@@ -81,37 +86,53 @@ impl Target {
 
 /// Runs `render`.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let stage = load(arguments)?;
-    let selection = Selection::new(arguments.frames.as_ref(), arguments.seconds, stage.frame_count())?;
     let destination = Destination::new(&arguments.out)?;
+    let of_errors = arguments.standard_error()?;
+    let stage = load(arguments)?;
+    let selection = arguments.selection(stage.frame_count())?;
     let mut painter = Painter::new(arguments)?;
     let mut report = Report::new(arguments, stage.size(), painter.device());
     destination.make_folder()?;
 
-    let progress = progress_bar(&selection);
+    let progress = Progress::new();
     let started = Instant::now();
-    let mut last = None;
     let mut frames = selection.frames();
     while let Some(index) = frames.next(started.elapsed()) {
-        painter.paint(&stage, index)?;
-        progress.set_position(selection.position(frames.count(), started.elapsed()));
-        if destination.is_numbered() {
+        let done = frames.count() - 1;
+        painter.paint(&stage, index, |share| {
+            progress.show(selection.share(done as f64 + share, started.elapsed()));
+        })?;
+        let is_last = frames.is_last(started.elapsed());
+        if is_last || destination.is_numbered() {
             let picture = painter.read()?;
-            write(&destination, index.unwrap_or(frames.count() - 1), &picture)?;
-            last = Some(picture);
+            write(&destination, of_errors.as_ref(), index.unwrap_or(done), &picture)?;
+            report.note(frames.count(), picture.samples, painter.counts(), started.elapsed());
+        }
+        if is_last {
+            break;
         }
     }
-    let last = match last {
-        Some(picture) => picture,
-        None => {
-            let picture = painter.read()?;
-            write(&destination, 0, &picture)?;
-            picture
-        }
-    };
-    progress.finish_and_clear();
-    report.finish(frames.count(), &last, started.elapsed());
+    progress.finish();
     conclude(arguments, &painter, &report)
+}
+
+impl Arguments {
+    /// Which frames are rendered, of a scene whose sequence has so many.
+    fn selection(&self, length: usize) -> Result<Selection, Failure> {
+        // In reference mode it is the time of each frame.
+        let time = self.seconds.filter(|_| self.mode != Mode::Reference);
+        Selection::new(self.frames.as_ref(), time, length)
+    }
+
+    /// Where standard errors are written, if they are.
+    fn standard_error(&self) -> Result<Option<Destination>, Failure> {
+        match &self.standard_error {
+            Some(_) if self.mode != Mode::Reference => {
+                Err(Failure::Usage("only pictures of reference mode have a standard error".into()))
+            }
+            path => path.as_deref().map(Destination::new).transpose(),
+        }
+    }
 }
 
 fn load(arguments: &Arguments) -> Result<Stage, Failure> {
@@ -125,8 +146,17 @@ fn load(arguments: &Arguments) -> Result<Stage, Failure> {
     })
 }
 
-fn write(destination: &Destination, frame: u64, picture: &Picture) -> Result<(), Failure> {
-    output::write_image(&destination.of_frame(frame), &picture.image)
+fn write(
+    destination: &Destination,
+    of_errors: Option<&Destination>,
+    frame: u64,
+    picture: &Picture,
+) -> Result<(), Failure> {
+    output::write_image(&destination.of_frame(frame), &picture.image)?;
+    match (of_errors, &picture.standard_error) {
+        (Some(path), Some(error)) => output::write_image(&path.of_frame(frame), error),
+        _ => Ok(()),
+    }
 }
 
 fn conclude(arguments: &Arguments, painter: &Painter, report: &Report) -> Result<(), Failure> {
@@ -145,10 +175,4 @@ fn seconds(text: &str) -> Result<Duration, String> {
         seconds if seconds > 0.0 && seconds <= 1e6 => Ok(Duration::from_secs_f64(seconds)),
         _ => Err(format!("'{text}' is not from 0 to 1000000")),
     }
-}
-
-/// On a terminal only.
-fn progress_bar(selection: &Selection) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {percent}%  {elapsed}  {eta} left");
-    ProgressBar::new(selection.length()).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }

@@ -177,7 +177,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         if frames.contains(&frame) {
             let wanted = (frame - frames.start).is_multiple_of(arguments.every);
             let finished = session.finish_frame()?;
-            report.frame(frame, &finished);
+            report.frame(frame, arguments.mode, &finished);
             if let Some(folder) = arguments.out.as_ref().filter(|_| wanted) {
                 let path = folder.join(format!("frame-{frame:06}.{}", arguments.format.extension()));
                 output::write_picture(&path, finished.size, &finished.pixels)?;

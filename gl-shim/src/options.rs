@@ -103,6 +103,7 @@ fn mode(value: &str) -> Option<Mode> {
     match value {
         "raster" => Some(Mode::Raster),
         "pathtrace" => Some(Mode::Pathtrace),
+        "reference" => Some(Mode::Reference),
         _ => None,
     }
 }

@@ -7,7 +7,7 @@ use afterglow_gpu::DeviceInfo;
 use serde::Serialize;
 
 use super::Arguments;
-use super::painter::Picture;
+use super::painter::Counts;
 
 /// Everything that `render --json` writes.
 #[derive(Debug, Serialize)]
@@ -20,13 +20,15 @@ pub struct Report {
     /// Frames that were rendered.
     frames: u64,
     /// Samples a pixel of the last picture.
-    samples: u64,
+    samples: u32,
     /// Of all frames, with what it took to write them.
     seconds: f64,
     /// Rays of all frames, where they are counted.
     rays: Option<u64>,
-    /// Samples of the last picture that were no number; pixels where samples are not known.
+    /// Samples of the last frame that were no number and count as black.
     non_finite: u64,
+    /// Samples of the last frame that were darkened (pathtrace).
+    limited: u64,
     device: DeviceInfo,
 }
 
@@ -43,16 +45,18 @@ impl Report {
             seconds: 0.0,
             rays: None,
             non_finite: 0,
+            limited: 0,
             device,
         }
     }
 
-    /// Adds what is known at the end.
-    pub fn finish(&mut self, frames: u64, last: &Picture, taken: Duration) {
+    /// Takes note of the last of so many frames.
+    pub fn note(&mut self, frames: u64, samples: u32, counts: Counts, taken: Duration) {
         self.frames = frames;
-        self.samples = last.samples;
+        self.samples = samples;
         self.seconds = taken.as_secs_f64();
-        self.non_finite = last.non_finite;
+        self.rays = Some(counts.rays).filter(|rays| *rays > 0);
+        (self.non_finite, self.limited) = (counts.non_finite, counts.limited);
     }
 
     /// Writes it for people.
@@ -72,7 +76,7 @@ impl Report {
         )?;
         match self.non_finite {
             0 => Ok(()),
-            count => writeln!(out, "{count} samples were no number"),
+            count => writeln!(out, "{count} samples were no number and count as black"),
         }
     }
 }

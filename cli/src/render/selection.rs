@@ -50,6 +50,9 @@ impl Selection {
     ) -> Result<Selection, Failure> {
         match (frames, seconds, length as u64) {
             (None, None, _) => Ok(Selection::Stills(1)),
+            (Some(_), Some(_), _) => {
+                Err(Failure::Usage("--seconds and --frames go together in reference mode only".into()))
+            }
             (None, Some(time), _) => Ok(Selection::Time(time)),
             (Some(Frames::Count(count)), _, 0) => Ok(Selection::Stills(*count)),
             (Some(Frames::Count(_)), _, length) => Err(Failure::Usage(format!(
@@ -72,20 +75,12 @@ impl Selection {
         Succession { selection: self, count: 0 }
     }
 
-    /// How far a bar goes: frames, or milliseconds.
-    pub fn length(&self) -> u64 {
+    /// The share of all that is done after so many frames and so long a time.
+    pub fn share(&self, frames: f64, elapsed: Duration) -> f64 {
         match self {
-            Selection::Stills(count) => *count,
-            Selection::Time(time) => time.as_millis() as u64,
-            Selection::Sequence(range) => range.end - range.start,
-        }
-    }
-
-    /// How far it has come after so many frames and so long a time.
-    pub fn position(&self, count: u64, elapsed: Duration) -> u64 {
-        match self {
-            Selection::Time(_) => elapsed.as_millis() as u64,
-            Selection::Stills(_) | Selection::Sequence(_) => count,
+            Selection::Stills(count) => frames / *count as f64,
+            Selection::Time(time) => elapsed.as_secs_f64() / time.as_secs_f64(),
+            Selection::Sequence(range) => frames / (range.end - range.start) as f64,
         }
     }
 }
@@ -100,14 +95,23 @@ pub struct Succession<'a> {
 impl Succession<'_> {
     /// The next frame after so long a time: its number in the sequence, or none within for the still scene.
     pub fn next(&mut self, elapsed: Duration) -> Option<Option<u64>> {
-        let number = self.count;
-        let next = match self.selection {
-            Selection::Stills(count) => (number < *count).then_some(None),
-            Selection::Time(time) => (number == 0 || elapsed < *time).then_some(None),
-            Selection::Sequence(range) => range.clone().nth(number as usize).map(Some),
-        };
-        self.count += u64::from(next.is_some());
-        next
+        if self.is_last(elapsed) {
+            return None;
+        }
+        self.count += 1;
+        Some(match self.selection {
+            Selection::Stills(_) | Selection::Time(_) => None,
+            Selection::Sequence(range) => Some(range.start + self.count - 1),
+        })
+    }
+
+    /// Whether there is no frame after those that have been, if it is so late. Each selection has one at least.
+    pub fn is_last(&self, elapsed: Duration) -> bool {
+        match self.selection {
+            Selection::Stills(count) => self.count >= *count,
+            Selection::Time(time) => self.count > 0 && elapsed >= *time,
+            Selection::Sequence(range) => self.count >= range.end - range.start,
+        }
     }
 
     /// How many have been.

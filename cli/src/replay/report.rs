@@ -10,6 +10,7 @@ use afterglow_render::{CulledReport, FrameReport, PassReport};
 use serde::Serialize;
 
 use crate::figures::{Camera, Light, Relight};
+use crate::options::Mode;
 
 /// Everything that `replay --json` writes.
 #[derive(Serialize)]
@@ -92,8 +93,8 @@ impl Report {
         }
     }
 
-    /// Adds a frame.
-    pub fn frame(&mut self, index: u64, finished: &Finished) {
+    /// Adds a frame that was asked for in a mode.
+    pub fn frame(&mut self, index: u64, mode: Mode, finished: &Finished) {
         self.hash.update(&finished.hash.to_le_bytes());
         let rendered = &finished.rendered;
         let scene = rendered.scene.as_ref();
@@ -101,7 +102,7 @@ impl Report {
             index,
             size: finished.size,
             checksum: format!("{:016x}", finished.hash),
-            mode: if rendered.traced.is_some() { "pathtrace" } else { "raster" },
+            mode: if rendered.traced.is_some() { mode.name() } else { Mode::Raster.name() },
             camera: scene.and_then(|scene| scene.camera.as_ref()).map(Camera::from).unwrap_or_default(),
             triangles: scene.map(|scene| scene.triangles.named().into()).unwrap_or_default(),
             lights: scene.map(|scene| scene.lights.iter().map(Light::from).collect()).unwrap_or_default(),

@@ -8,13 +8,13 @@ use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{DeviceInfo, Gpu};
 use afterglow_player::BackendFactory;
-use afterglow_render::{self as render, RenderOptions, Renderer, Scale};
+use afterglow_render::{RenderOptions, Renderer, Scale};
 use parking_lot::Mutex;
 
 use super::Arguments;
 use super::report::Finished;
 use crate::failure::Failure;
-use crate::options::{Mode, Size};
+use crate::options::Size;
 
 /// `I:X,Y,Z`: which, and how far.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,9 +92,8 @@ impl Session {
         let mut options = RenderOptions::default();
         options.timing = arguments.wants_timing();
         let mut renderer = Renderer::new(&gpu, &options).map_err(failed)?;
-        if arguments.mode == Mode::Pathtrace {
-            renderer.set_mode(render::Mode::Pathtrace, &arguments.pathtrace_options()?).map_err(failed)?;
-        }
+        let mode = arguments.mode.of_renderer();
+        renderer.set_mode(mode, &arguments.pathtrace_options()?).map_err(failed)?;
         let lit = Arc::new(AtomicBool::new(true));
         Ok(Session { renderer: Arc::new(Mutex::new(renderer)), gpu, lit, size: arguments.size })
     }

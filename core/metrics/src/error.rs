@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use afterglow_npy::NpyError;
 use thiserror::Error;
 
 use crate::image::{MAX_PIXELS, MAX_SIDE};
@@ -39,8 +40,8 @@ pub enum FormatError {
     #[error("EXR: {0}")]
     Exr(#[from] exr::error::Error),
     #[error("npy: {0}")]
-    Npy(String),
-    #[error("unknown extension (png, exr and npy are known)")]
+    Npy(#[from] NpyError),
+    #[error("unknown extension (png, exr, npy and npz:ARRAY are known)")]
     UnknownExtension,
     #[error(
         "a picture of {width}x{height} pixels is refused (at most {MAX_SIDE} a side and {MAX_PIXELS} in all)"

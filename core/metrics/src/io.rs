@@ -1,4 +1,5 @@
-//! Pictures in files: PNG (display values), EXR and `.npy` (linear light), told apart by their extensions.
+//! Pictures in files: PNG (display values), EXR and `.npy` (linear light), told apart by their extensions. An array within
+//! NumPy's `.npz` is named behind a colon, as in `references.npz:full`.
 //!
 //! Sizes are checked against [`crate::MAX_SIDE`] and [`crate::MAX_PIXELS`] before anything of that size is allocated, so a
 //! damaged or hostile file gives an error and no more.
@@ -11,8 +12,13 @@ use std::fs::File;
 use std::io::{BufReader, BufWriter, Write};
 use std::path::Path;
 
+use afterglow_npy::Archive;
+
 use crate::error::{FormatError, MetricsError};
-use crate::image::Image;
+use crate::image::{Image, MAX_PIXELS};
+
+/// Bytes of an archive, and of an array in it: those of the largest picture in f64, with some room for its header.
+const MAX_FILE: u64 = 24 * MAX_PIXELS as u64 + 65_536;
 
 #[derive(Clone, Copy)]
 enum Format {
@@ -33,7 +39,7 @@ impl Format {
     }
 }
 
-/// Reads a `.png` as display values, an `.exr` or `.npy` as linear light.
+/// Reads a `.png` as display values, an `.exr`, `.npy` or array of an `.npz` as linear light.
 ///
 /// # Errors
 /// If the file cannot be read, is none of these, is damaged, or is too large.
@@ -51,6 +57,10 @@ pub fn save(image: &Image, path: &Path) -> Result<(), MetricsError> {
 }
 
 fn read_file(path: &Path) -> Result<Image, FormatError> {
+    if let Some((archive, array)) = path.to_str().and_then(member) {
+        let file = Archive::open(archive, MAX_FILE)?.file(array)?;
+        return npy::read(&mut file.as_slice());
+    }
     let format = Format::of(path)?;
     let mut file = BufReader::new(File::open(path)?);
     match format {
@@ -58,6 +68,12 @@ fn read_file(path: &Path) -> Result<Image, FormatError> {
         Format::Exr => exr::read(&mut file),
         Format::Npy => npy::read(&mut file),
     }
+}
+
+/// The archive and the array that a path names, if it does.
+fn member(path: &str) -> Option<(&Path, &str)> {
+    let (archive, array) = path.rsplit_once(':')?;
+    archive.to_ascii_lowercase().ends_with(".npz").then(|| (Path::new(archive), array))
 }
 
 fn write_file(image: &Image, path: &Path) -> Result<(), FormatError> {

@@ -10,7 +10,7 @@ use crate::error::Problem;
 const RIGID_ERROR: f64 = 1e-4;
 
 /// What counts may be.
-pub(crate) const MOST_BYTES: u64 = 1 << 30;
+pub(crate) const MOST_BYTES: u64 = 1 << 29;
 pub(crate) const MOST_VERTICES: usize = 1 << 25;
 pub(crate) const MOST_TRIANGLES: usize = 1 << 25;
 pub(crate) const MOST_MATERIALS: usize = 1 << 16;

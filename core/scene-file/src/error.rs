@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use afterglow_npy::NpyError;
 use thiserror::Error;
 
 /// A file that is no scene, and why.
@@ -28,6 +29,12 @@ pub enum Problem {
     /// No JSON, or not of a scene's shape; the message has line and column.
     #[error("{0}")]
     Json(#[from] serde_json::Error),
+    /// Of a mesh.
+    #[error("{0}")]
+    Archive(#[source] NpyError),
+    /// An array of a mesh.
+    #[error("{place}: {source}")]
+    Array { place: String, source: NpyError },
     #[error("the format is {0:?}; rtgt-1 is known")]
     Format(String),
     #[error("neither .json nor .npz")]

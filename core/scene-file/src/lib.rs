@@ -8,12 +8,15 @@
 mod check;
 mod draws;
 mod error;
+mod fit;
 mod lights;
+mod mesh;
 mod rtgt;
 mod scene;
 mod stage;
 #[cfg(test)]
 mod tests;
+mod view;
 
 pub use error::{Problem, SceneFileError};
 pub use scene::{

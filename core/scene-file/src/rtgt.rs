@@ -113,7 +113,7 @@ pub(crate) fn parse(text: &[u8]) -> Result<SceneFile, Problem> {
     let mut scene = SceneFile {
         name: document.name,
         size: check::size("camera", [camera.width, camera.height])?,
-        view: view("camera", camera.modelview, camera.projection)?,
+        view: View::checked("camera", camera.modelview, camera.projection)?,
         sun: document.sun.map(sun).transpose()?,
         sky: document.sky.map(sky).transpose()?,
         sphere_lights: sphere_lights(document.sphere_lights)?,
@@ -128,19 +128,8 @@ pub(crate) fn parse(text: &[u8]) -> Result<SceneFile, Problem> {
     Ok(scene)
 }
 
-fn view(place: &str, modelview: [f64; 16], projection: [f64; 16]) -> Result<View, Problem> {
-    Ok(View {
-        modelview: check::rigid(&format!("{place}.modelview"), modelview)?,
-        projection: check::invertible(&format!("{place}.projection"), projection)?,
-    })
-}
-
 fn sun(sun: FileSun) -> Result<Sun, Problem> {
-    Ok(Sun {
-        direction: check::direction("sun.direction_to_sun", sun.direction_to_sun)?,
-        angular_radius: check::within("sun.angular_radius_rad", sun.angular_radius_rad, 0.0, 1.5)?,
-        irradiance: check::light("sun.irradiance_normal", sun.irradiance_normal)?,
-    })
+    Sun::checked(sun.direction_to_sun, sun.angular_radius_rad, sun.irradiance_normal)
 }
 
 fn sky(sky: FileSky) -> Result<Sky, Problem> {
@@ -247,7 +236,7 @@ impl<'a> Names<'a> {
     fn frame(&self, index: usize, frame: &FileFrame) -> Result<SequenceFrame, Problem> {
         let place = |field: &str| format!("sequence.frames[{index}].{field}");
         let mut found = SequenceFrame {
-            view: view(&place("camera"), frame.camera.modelview, frame.camera.projection)?,
+            view: View::checked(&place("camera"), frame.camera.modelview, frame.camera.projection)?,
             transforms: Vec::new(),
             emission_scales: Vec::new(),
             light_scales: Vec::new(),

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use glam::{DMat4, DVec3, Vec3};
+use serde::Deserialize;
 
 use crate::check;
 use crate::error::{Problem, SceneFileError};
-use crate::rtgt;
+use crate::{mesh, rtgt, view};
 
 /// A scene whose every index is in range and whose every number is finite. World space is right-handed; light is linear
 /// RGB of the sRGB primaries, in one arbitrary unit.
@@ -126,11 +127,25 @@ pub struct SequenceFrame {
 pub fn load(path: &Path) -> Result<SceneFile, SceneFileError> {
     let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
     match extension.to_str() {
-        Some("json") => {
-            let text = read_bounded(path).map_err(|problem| SceneFileError::new(path, problem))?;
-            rtgt::parse(&text).map_err(|problem| SceneFileError::new(path, problem))
-        }
+        Some("json") => load_json(path),
+        Some("npz") => mesh::load(path).map_err(|problem| SceneFileError::new(path, problem)),
         _ => Err(SceneFileError::new(path, Problem::Extension)),
+    }
+}
+
+/// What tells views of meshes from scenes.
+#[derive(Deserialize)]
+struct Kind {
+    mesh: Option<String>,
+}
+
+fn load_json(path: &Path) -> Result<SceneFile, SceneFileError> {
+    let of_file = |problem| SceneFileError::new(path, problem);
+    let text = read_bounded(path).map_err(of_file)?;
+    let kind: Kind = serde_json::from_slice(&text).map_err(|error| of_file(error.into()))?;
+    match kind.mesh {
+        Some(_) => view::load(path, &text),
+        None => rtgt::parse(&text).map_err(of_file),
     }
 }
 
@@ -143,6 +158,30 @@ fn read_bounded(path: &Path) -> Result<Vec<u8>, Problem> {
     Ok(bytes)
 }
 
+impl View {
+    pub(crate) fn checked(place: &str, modelview: [f64; 16], projection: [f64; 16]) -> Result<Self, Problem> {
+        Ok(Self {
+            modelview: check::rigid(&format!("{place}.modelview"), modelview)?,
+            projection: check::invertible(&format!("{place}.projection"), projection)?,
+        })
+    }
+}
+
+impl Sun {
+    /// `angular_radius` in radians.
+    pub(crate) fn checked(
+        direction: [f64; 3],
+        angular_radius: f64,
+        irradiance: [f64; 3],
+    ) -> Result<Self, Problem> {
+        Ok(Self {
+            direction: check::direction("sun.direction_to_sun", direction)?,
+            angular_radius: check::within("sun's angular radius", angular_radius, 0.0, 1.5)?,
+            irradiance: check::light("sun.irradiance_normal", irradiance)?,
+        })
+    }
+}
+
 impl Triangles {
     /// Triangles whose corners are among `positions` and whose materials are of `material_count`.
     pub(crate) fn checked(
@@ -153,6 +192,9 @@ impl Triangles {
     ) -> Result<Self, Problem> {
         check::count("positions", positions.len(), check::MOST_VERTICES)?;
         check::count("triangles", corners.len(), check::MOST_TRIANGLES)?;
+        if corners.len() == 0 {
+            return Err(Problem::value("triangles", "there are none"));
+        }
         if materials.len() != corners.len() {
             let reason = format!("{} of them for {} triangles", materials.len(), corners.len());
             return Err(Problem::value("triangle_material", reason));

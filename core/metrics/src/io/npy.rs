@@ -2,14 +2,10 @@
 
 use std::io::{Read, Write};
 
-use half::f16;
+use afterglow_npy::{Header, MAGIC};
 
 use crate::error::FormatError;
 use crate::image::{Encoding, Image, checked_pixel_count};
-
-const MAGIC: &[u8; 6] = b"\x93NUMPY";
-/// Longest header that is accepted, in bytes; that of a picture has 118.
-const MAX_HEADER: usize = 1 << 14;
 
 /// Reads linear light from an array of shape (H, W, 3), row 0 on top, of little-endian `f2`, `f4` or `f8` in C order. Bytes after it are
 /// left unread, so members of archives can be given too.
@@ -17,18 +13,24 @@ const MAX_HEADER: usize = 1 << 14;
 /// # Errors
 /// If the header is damaged or another kind of array, the picture is too large, or numbers are missing.
 pub fn read(reader: &mut impl Read) -> Result<Image, FormatError> {
-    let header = Header::parse(&header_text(reader)?)?;
-    let (width, height) = (header.width, header.height);
+    let header = Header::read(reader)?;
+    let element = header.element;
+    if !element.is_float() || header.is_fortran_order {
+        return Err(header.refused("only <f2, <f4 and <f8 in C order are read").into());
+    }
+    let &[height, width, 3] = header.shape.as_slice() else {
+        return Err(header.refused("only arrays of shape (H, W, 3) are read").into());
+    };
     let count = checked_pixel_count(width, height)?;
 
     // Row by row, so that memory grows with what is really there and not with what the header claims.
-    let mut row = vec![0u8; width * 3 * header.sample.bytes()];
+    let mut row = vec![0u8; width * 3 * element.bytes()];
     let mut pixels = Vec::new();
     for _ in 0..height {
         reader.read_exact(&mut row)?;
-        pixels.extend(row.chunks_exact(3 * header.sample.bytes()).map(|bytes| {
-            let mut samples = bytes.chunks_exact(header.sample.bytes());
-            std::array::from_fn(|_| samples.next().map_or(f32::NAN, |s| header.sample.value(s)))
+        pixels.extend(row.chunks_exact(3 * element.bytes()).map(|bytes| {
+            let mut samples = bytes.chunks_exact(element.bytes());
+            std::array::from_fn(|_| samples.next().map_or(f32::NAN, |s| element.float(s)))
         }));
     }
     debug_assert_eq!(pixels.len(), count);
@@ -59,109 +61,10 @@ pub fn write(image: &Image, writer: &mut impl Write) -> Result<(), FormatError> 
     Ok(())
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Sample {
-    F16,
-    F32,
-    F64,
-}
-
-impl Sample {
-    fn bytes(self) -> usize {
-        match self {
-            Self::F16 => 2,
-            Self::F32 => 4,
-            Self::F64 => 8,
-        }
-    }
-
-    /// `bytes` are [`Sample::bytes`] long; NaN if they are not.
-    fn value(self, bytes: &[u8]) -> f32 {
-        match (self, bytes) {
-            (Self::F16, &[a, b]) => f16::from_le_bytes([a, b]).to_f32(),
-            (Self::F32, &[a, b, c, d]) => f32::from_le_bytes([a, b, c, d]),
-            (Self::F64, &[a, b, c, d, e, f, g, h]) => f64::from_le_bytes([a, b, c, d, e, f, g, h]) as f32,
-            _ => f32::NAN,
-        }
-    }
-}
-
-#[derive(Debug, PartialEq)]
-struct Header {
-    sample: Sample,
-    height: usize,
-    width: usize,
-}
-
-impl Header {
-    /// Of a Python dictionary with the keys `descr`, `fortran_order` and `shape`, in any order.
-    fn parse(text: &str) -> Result<Self, FormatError> {
-        let sample = match value_of(text, "descr")?.get(..5) {
-            Some("'<f2'") => Sample::F16,
-            Some("'<f4'") => Sample::F32,
-            Some("'<f8'") => Sample::F64,
-            _ => return Err(refused("only <f2, <f4 and <f8 are read", text)),
-        };
-        if !value_of(text, "fortran_order")?.starts_with("False") {
-            return Err(refused("only C order is read", text));
-        }
-        match shape(value_of(text, "shape")?).as_deref() {
-            Some(&[height, width, 3]) => Ok(Self { sample, height, width }),
-            _ => Err(refused("only arrays of shape (H, W, 3) are read", text)),
-        }
-    }
-}
-
-fn header_text(reader: &mut impl Read) -> Result<String, FormatError> {
-    let mut start = [0u8; 8];
-    reader.read_exact(&mut start)?;
-    let [magic @ .., major, _minor] = start;
-    if magic != *MAGIC {
-        return Err(FormatError::Npy("not an npy file".into()));
-    }
-    let length = match major {
-        1 => {
-            let mut bytes = [0u8; 2];
-            reader.read_exact(&mut bytes)?;
-            usize::from(u16::from_le_bytes(bytes))
-        }
-        2 | 3 => {
-            let mut bytes = [0u8; 4];
-            reader.read_exact(&mut bytes)?;
-            u32::from_le_bytes(bytes) as usize
-        }
-        _ => return Err(FormatError::Npy(format!("version {major} is unknown"))),
-    };
-    if length > MAX_HEADER {
-        return Err(FormatError::Npy(format!("a header of {length} bytes")));
-    }
-    let mut header = vec![0u8; length];
-    reader.read_exact(&mut header)?;
-    String::from_utf8(header).map_err(|_| FormatError::Npy("the header is no text".into()))
-}
-
-/// What follows `'key':`, up to the header's end.
-fn value_of<'a>(text: &'a str, key: &str) -> Result<&'a str, FormatError> {
-    let missing = || refused(&format!("no {key}"), text);
-    let quoted = format!("'{key}'");
-    let after = text.find(&quoted).ok_or_else(missing)? + quoted.len();
-    let value = text[after..].trim_start().strip_prefix(':');
-    Ok(value.ok_or_else(missing)?.trim_start())
-}
-
-fn shape(value: &str) -> Option<Vec<usize>> {
-    let (inside, _) = value.strip_prefix('(')?.split_once(')')?;
-    let sides = inside.trim().trim_end_matches(',').split(',');
-    sides.map(|side| side.trim().parse().ok()).collect()
-}
-
-fn refused(why: &str, header: &str) -> FormatError {
-    let shown: String = header.trim().chars().take(200).collect();
-    FormatError::Npy(format!("{why}, but the header says {shown}"))
-}
-
 #[cfg(test)]
 mod tests {
+    use half::f16;
+
     use super::*;
     use crate::test_images as synthetic;
 

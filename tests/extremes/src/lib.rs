@@ -4,6 +4,8 @@
 //! A [`World`] becomes a scene file in memory; [`reference`](fn@reference) and [`pathtrace`] draw it on the device of all tests, whose
 //! validation layer must stay silent. A [`Picture`] has the mean and standard error of each pixel, and the counters.
 
+#![allow(clippy::unwrap_used, reason = "all of this is for tests")]
+
 mod picture;
 mod shapes;
 mod shot;

@@ -59,7 +59,8 @@ impl Picture {
     /// Fails where a pixel or sample is no number.
     #[track_caller]
     pub fn assert_sound(&self, what: &str) {
-        let bad = self.radiance.mean.iter().flatten().filter(|value| !value.is_finite() || **value < 0.0).count();
+        let bad =
+            self.radiance.mean.iter().flatten().filter(|value| !value.is_finite() || **value < 0.0).count();
         assert_eq!((bad, self.non_finite), (0, 0), "{what}: channels and samples that are no numbers");
     }
 

@@ -38,7 +38,8 @@ pub fn icosphere(middle: Vec3, radius: f32, halvings: u32) -> Vec<Triangle> {
     let is_edge = |a: Vec3, b: Vec3| (a.distance(b) - 2.0).abs() < 1e-3;
     for (i, &a) in corners.iter().enumerate() {
         for (j, &b) in corners.iter().enumerate().skip(i + 1) {
-            for &c in corners.iter().skip(j + 1).filter(|&&c| is_edge(a, b) && is_edge(b, c) && is_edge(a, c)) {
+            for &c in corners.iter().skip(j + 1).filter(|&&c| is_edge(a, b) && is_edge(b, c) && is_edge(a, c))
+            {
                 let is_outward = (b - a).cross(c - a).dot(a) > 0.0;
                 triangles.push(if is_outward { [a, b, c] } else { [a, c, b] });
             }

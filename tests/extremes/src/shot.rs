@@ -15,8 +15,6 @@ use crate::world::World;
 #[derive(Debug, Clone)]
 pub struct Shot {
     pub options: PathtraceOptions,
-    /// Frames that add up.
-    pub frames: u32,
 }
 
 impl Shot {
@@ -25,7 +23,7 @@ impl Shot {
         let mut options = PathtraceOptions::default();
         (options.spp, options.relighting, options.memory_bytes) = (samples, Relighting::Off, 0);
         options.keeps_radiance = true;
-        Self { options, frames: 1 }
+        Self { options }
     }
 
     /// With other options.
@@ -36,7 +34,7 @@ impl Shot {
     }
 
     /// Renders a frame whose scene is known.
-    pub fn render(&self, mode: Mode, staged: &(Frame, Scene)) -> Picture {
+    pub fn render(&self, mode: Mode, staged: (Frame, Scene)) -> Picture {
         static RENDERER: OnceLock<Mutex<Renderer>> = OnceLock::new();
         let new = || Mutex::new(Renderer::new(gpu(), &RenderOptions::default()).unwrap());
         // A test that has failed leaves a renderer that works.
@@ -46,35 +44,37 @@ impl Shot {
         picture
     }
 
-    fn render_with(&self, renderer: &mut Renderer, mode: Mode, (frame, scene): &(Frame, Scene)) -> Picture {
+    fn render_with(
+        &self,
+        renderer: &mut Renderer,
+        mode: Mode,
+        (mut frame, scene): (Frame, Scene),
+    ) -> Picture {
         renderer.set_mode(mode, &self.options).unwrap();
         assert_eq!(renderer.mode(), mode, "the device cannot trace");
-        let (mut non_finite, mut limited, mut removed, mut rays) = (0, 0, 0, 0);
-        for number in 0..self.frames {
-            // The first one has nothing in common with the frames of other tests.
-            let scene = Scene { cut: number == 0, ..scene.clone() };
-            renderer.execute_staged(&mut frame.clone(), scene).unwrap();
-            let counters = renderer.read_counters().unwrap();
-            non_finite += u64::from(counters.non_finite);
-            limited += u64::from(counters.limited);
-            removed += u64::from(counters.removed);
-            rays += u64::from(counters.rays);
-        }
+        // It has nothing in common with the frames of other tests.
+        renderer.execute_staged(&mut frame, Scene { cut: true, ..scene }).unwrap();
+        let counters = renderer.read_counters().unwrap();
         let radiance = renderer.read_radiance().unwrap().unwrap_or_default();
-        let shown = renderer.read_color().unwrap();
-        let removed = removed as f64 / 16.0;
-        Picture { radiance, non_finite, limited, removed, rays, shown }
+        Picture {
+            radiance,
+            non_finite: u64::from(counters.non_finite),
+            limited: u64::from(counters.limited),
+            removed: f64::from(counters.removed) / 16.0,
+            rays: u64::from(counters.rays),
+            shown: renderer.read_color().unwrap(),
+        }
     }
 }
 
 /// Renders a world with the camera's own rays, without any bias.
 pub fn reference(world: &World, shot: &Shot) -> Picture {
-    shot.render(Mode::Reference, &staged(world))
+    shot.render(Mode::Reference, staged(world))
 }
 
 /// Renders a world as a game's, where what the camera sees is rasterized.
 pub fn pathtrace(world: &World, shot: &Shot) -> Picture {
-    shot.render(Mode::Pathtrace, &staged(world))
+    shot.render(Mode::Pathtrace, staged(world))
 }
 
 /// What the renderer takes of a world.

@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use afterglow_extremes::{
-    Estimate, Shot, World, cube, icosphere, lambert, metal, quad, reference, shining,
-};
+use afterglow_extremes::{Estimate, Shot, World, cube, icosphere, lambert, metal, quad, reference, shining};
 use afterglow_render::{LightChoice, Target};
 use glam::{DVec3, Vec3};
 
@@ -24,7 +22,8 @@ pub(crate) fn spot(world: World, eye: DVec3) -> World {
 
 /// What the middle of a white floor shows.
 fn shown(world: World, eye: DVec3, samples: u32) -> Estimate {
-    let picture = reference(&spot(world, eye), &Shot::of(samples).with(|options| options.target = Target::Direct));
+    let picture =
+        reference(&spot(world, eye), &Shot::of(samples).with(|options| options.target = Target::Direct));
     picture.assert_sound("a floor");
     picture.whole()
 }
@@ -38,10 +37,11 @@ fn convex_bodies_in_a_uniform_sky() {
         .flat_map(|body| [0.3, 0.8, 0.98, 1.0].map(|albedo| (body, albedo)))
         .flat_map(|(body, albedo)| TARGETS.map(|target| (body, albedo, target)))
     {
-        let world = World::new(16)
-            .sky(2.0)
-            .with(body.clone(), lambert(albedo))
-            .seen_from(DVec3::new(2.0, 3.0, 5.0), DVec3::ZERO, 0.8);
+        let world = World::new(16).sky(2.0).with(body.clone(), lambert(albedo)).seen_from(
+            DVec3::new(2.0, 3.0, 5.0),
+            DVec3::ZERO,
+            0.8,
+        );
         let picture = reference(&world, &Shot::of(4).with(|options| options.target = target));
         picture.assert_sound("a body");
         picture.middle().assert(2.0 * f64::from(albedo), ROUNDING, "radiance of a convex body");
@@ -95,7 +95,12 @@ fn sun_discs() {
     for angular_radius in [1e-4, 0.004675, 0.1] {
         let world = World::new(8).sun(DVec3::Y, angular_radius, 2.0);
         let floor = world.clone().with(floor(1.0), lambert(0.5));
-        shown(floor, DVec3::new(0.0, 3.0, 4.0), 64).assert(1.0 / PI, 1e-5, &format!("a floor under {angular_radius}"));
+        // The share that the floor's own rays have is too rare to be seen in so few samples.
+        shown(floor, DVec3::new(0.0, 3.0, 4.0), 64).assert(
+            1.0 / PI,
+            1e-4,
+            &format!("a floor under {angular_radius}"),
+        );
         let disc = world.seen_from(DVec3::ZERO, DVec3::Y, 0.5 * angular_radius);
         let radiance = 2.0 / (PI * angular_radius.sin().powi(2));
         reference(&disc, &Shot::of(2)).whole().assert(radiance, 1e-4, "the disc");
@@ -125,9 +130,11 @@ fn sphere_lights_over_a_floor() {
 fn closed_box_that_shines() {
     for albedo in [0.5, 0.9_f64] {
         for (target, bounces) in TARGETS.into_iter().zip([1, 2, 64]) {
-            let world = World::new(16)
-                .with(cube(Vec3::ZERO, -1.0), shining(0.5, albedo as f32))
-                .seen_from(DVec3::new(0.3, 0.2, 0.1), DVec3::new(-1.0, -0.8, -0.9), 1.0);
+            let world = World::new(16).with(cube(Vec3::ZERO, -1.0), shining(0.5, albedo as f32)).seen_from(
+                DVec3::new(0.3, 0.2, 0.1),
+                DVec3::new(-1.0, -0.8, -0.9),
+                1.0,
+            );
             let picture = reference(&world, &Shot::of(128).with(|options| options.target = target));
             picture.assert_sound("a box");
             let value = 0.5 * (1.0 - albedo.powi(bounces + 1)) / (1.0 - albedo);
@@ -140,7 +147,8 @@ fn closed_box_that_shines() {
 pub(crate) fn room(size: u32) -> World {
     let light = quad(Vec3::new(-0.3, 0.95, -0.3), Vec3::X * 0.6, Vec3::Z * 0.6);
     let window = quad(Vec3::new(-1.0, -1.0, 1.0), Vec3::X * 2.0, Vec3::Y * 1.2);
-    let walls = cube(Vec3::ZERO, -1.0).into_iter().filter(|triangle| triangle.iter().any(|corner| corner.z < 0.0));
+    let walls =
+        cube(Vec3::ZERO, -1.0).into_iter().filter(|triangle| triangle.iter().any(|corner| corner.z < 0.0));
     World::new(size)
         .sky(0.4)
         .sun(DVec3::new(0.1, 0.5, 1.0), 0.05, 0.6)
@@ -158,7 +166,8 @@ pub(crate) fn room(size: u32) -> World {
 fn choices_of_lights_agree() {
     let world = room(32);
     let picture = |choice, candidates| {
-        let shot = Shot::of(96).with(|options| (options.light_choice, options.candidates) = (choice, candidates));
+        let shot =
+            Shot::of(96).with(|options| (options.light_choice, options.candidates) = (choice, candidates));
         reference(&world, &shot)
     };
     let uniform = picture(LightChoice::Uniform, 1);
@@ -173,14 +182,19 @@ fn choices_of_lights_agree() {
 /// The error falls as one over the root of the number of samples: what is left would be a bias.
 #[test]
 fn errors_fall_as_the_root_of_samples() {
-    let world = room(24);
+    let world = World::new(24)
+        .sky(0.2)
+        .lamp(DVec3::new(0.5, -0.2, -0.4), 0.2, 3.0)
+        .with(cube(Vec3::ZERO, -1.0).into_iter().skip(2), lambert(0.6))
+        .with(cube(Vec3::new(-0.4, -0.7, -0.3), 0.3), lambert(0.4))
+        .seen_from(DVec3::new(0.3, 0.1, 0.9), DVec3::new(-0.2, -0.3, -0.6), 1.3);
     let picture = |samples, seed| reference(&world, &Shot::of(samples).with(|options| options.seed = seed));
-    let converged = picture(1024, 1);
-    let logs = [1, 2, 4, 8, 16_u32].map(|samples| {
+    let converged = picture(512, 1);
+    let logs = [1, 2, 4, 8_u32].map(|samples| {
         let error = picture(samples, 2 + samples).distance(&converged);
         (f64::from(samples).ln(), error.ln())
     });
-    let (x, y) = logs.iter().fold((0.0, 0.0), |(x, y), log| (x + log.0 / 5.0, y + log.1 / 5.0));
+    let (x, y) = logs.iter().fold((0.0, 0.0), |(x, y), log| (x + log.0 / 4.0, y + log.1 / 4.0));
     let along: f64 = logs.iter().map(|log| (log.0 - x) * (log.1 - y)).sum();
     let slope = along / logs.iter().map(|log| (log.0 - x).powi(2)).sum::<f64>();
     assert!((slope + 0.5).abs() < 0.05, "slope {slope}: {logs:?}");

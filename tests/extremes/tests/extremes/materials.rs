@@ -24,7 +24,9 @@ fn roughness_that_is_none() {
 /// At grazing angles nothing is divided by a cosine.
 #[test]
 fn grazing_angles_of_the_roughest_metal() {
-    for (roughness, cosine) in [(1.0, 1e-2), (1.0, 1e-4), (1.0, 1e-6), (2.0, 1e-3), (f32::INFINITY, 0.1), (0.0, 1e-4)] {
+    for (roughness, cosine) in
+        [(1.0, 1e-2), (1.0, 1e-4), (1.0, 1e-6), (2.0, 1e-3), (f32::INFINITY, 0.1), (0.0, 1e-4)]
+    {
         let eye = DVec3::new(1.0, cosine, 0.0);
         let world = World::new(8)
             .sky(1.0)
@@ -68,9 +70,11 @@ fn a_mirror_shows_the_mirrored_picture() {
 #[test]
 fn white_rooms() {
     let world = |albedo| {
-        World::new(8)
-            .with(cube(Vec3::ZERO, -1.0), shining(0.5, albedo))
-            .seen_from(DVec3::new(0.3, 0.2, 0.1), DVec3::new(-1.0, -0.8, -0.9), 1.0)
+        World::new(8).with(cube(Vec3::ZERO, -1.0), shining(0.5, albedo)).seen_from(
+            DVec3::new(0.3, 0.2, 0.1),
+            DVec3::new(-1.0, -0.8, -0.9),
+            1.0,
+        )
     };
     let picture = reference(&world(1.0), &Shot::of(8));
     picture.assert_sound("albedo 1");
@@ -122,11 +126,18 @@ fn limits_tell_what_they_remove() {
         .with(bright, shining(500.0, 0.0))
         .seen_from(DVec3::new(0.0, -0.2, 0.9), DVec3::new(0.0, -0.6, 0.0), 1.0);
     let picture = |most| {
-        pathtrace(&world, &Shot::of(16).with(|options| (options.most_radiance, options.filter) = (most, false)))
+        pathtrace(
+            &world,
+            &Shot::of(16).with(|options| (options.most_radiance, options.filter) = (most, false)),
+        )
     };
     let (whole, limited) = (picture(f32::INFINITY), picture(2.0));
     assert_eq!((whole.limited, whole.removed), (0, 0.0));
     let missing = (whole.whole().mean - limited.whole().mean) * 32.0 * 32.0 * 16.0;
     let share = limited.removed / missing;
-    assert!(limited.limited > 0 && (share - 1.0).abs() < 0.02, "{} of {missing} are counted", limited.removed);
+    assert!(
+        limited.limited > 0 && (share - 1.0).abs() < 0.02,
+        "{} of {missing} are counted",
+        limited.removed
+    );
 }

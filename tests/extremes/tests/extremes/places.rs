@@ -40,7 +40,8 @@ fn any_scale_is_the_same() {
 fn planes_do_not_hide_themselves() {
     for size in [1.0, 1e3, 1e5, 1e6] {
         for away in [1e-2, 1.0, 1e3, 1e5] {
-            for corner in [Vec3::new(-0.37, 0.11, -0.61), Vec3::new(0.0, 0.0, -0.5), Vec3::new(1e3, 1e3, 1e3)] {
+            for corner in [Vec3::new(-0.37, 0.11, -0.61), Vec3::new(0.0, 0.0, -0.5), Vec3::new(1e3, 1e3, 1e3)]
+            {
                 let (across, along) = (Vec3::new(0.8, 0.1, 0.2) * size, Vec3::new(-0.1, 0.3, 0.9) * size);
                 let plane = quad(corner * size, along, across);
                 let [a, b, c] = plane[0].map(|corner| corner.as_dvec3());
@@ -49,7 +50,8 @@ fn planes_do_not_hide_themselves() {
                 let eye = middle + away * (normal + 0.7 * (b - a).normalize());
                 let world = World::new(16).sky(1.0).with(plane, lambert(1.0)).seen_from(eye, middle, 0.2);
                 let what = format!("size {size}, {away} away, corner {corner}");
-                let picture = reference(&world, &Shot::of(16).with(|options| options.target = Target::Direct));
+                let picture =
+                    reference(&world, &Shot::of(16).with(|options| options.target = Target::Direct));
                 picture.assert_sound(&what);
                 picture.whole().assert(1.0, 1e-4, &what);
                 pathtrace(&world, &Shot::of(2)).assert_sound(&what);

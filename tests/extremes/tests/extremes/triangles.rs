@@ -1,6 +1,8 @@
 //! Triangles that are none, next to ones that are: they cost themselves only.
 
-use afterglow_extremes::{Picture, Shot, World, icosphere, lambert, metal, pathtrace, reference, shining, staged};
+use afterglow_extremes::{
+    Picture, Shot, World, icosphere, lambert, metal, pathtrace, reference, shining, staged,
+};
 use afterglow_render::Mode;
 use afterglow_scene_file::{Object, SequenceFrame, Stage};
 use glam::{DMat4, DVec3, Vec3};
@@ -50,7 +52,8 @@ fn corners_that_are_no_numbers() {
             bad.extend([[a, b, lost], [lost, a, b], [lost, lost, lost]]);
         }
     }
-    let finite: Vec<_> = bad.iter().copied().filter(|corners| corners.iter().any(|corner| !corner.is_finite())).collect();
+    let finite: Vec<_> =
+        bad.iter().copied().filter(|corners| corners.iter().any(|corner| !corner.is_finite())).collect();
     assert_unharmed(&finite, "corners that are no numbers");
     // Huge ones are triangles, and may be seen.
     let world = among(&bad);
@@ -71,13 +74,21 @@ fn slivers() {
     let eye = |world: World| world.seen_from(DVec3::new(1.0, 2.0, 2.0), DVec3::ZERO, 0.7);
     let lit = || World::new(16).sky(0.2).lamp(DVec3::new(0.3, 1.0, 0.2), 0.2, 5.0);
     let expected = reference(&eye(lit().with(floor(2.0), lambert(0.7))), &Shot::of(64));
-    let corners = [Vec3::new(-2.0, 0.0, -2.0), Vec3::new(-2.0, 0.0, 2.0), Vec3::new(2.0, 0.0, 2.0), Vec3::new(2.0, 0.0, -2.0)];
+    let corners = [
+        Vec3::new(-2.0, 0.0, -2.0),
+        Vec3::new(-2.0, 0.0, 2.0),
+        Vec3::new(2.0, 0.0, 2.0),
+        Vec3::new(2.0, 0.0, -2.0),
+    ];
     for aspect in [1e3, 1e5, 1e6, 1e7] {
         // A strip along the diagonal.
         let across = Vec3::new(2.0, 0.0, 2.0) / aspect;
         let [a, b, c, d] = corners;
         let slivers = vec![[a, b - across, c], [a - across, b, c], [b, c - across, b + across], [a, c, d]];
-        let picture = reference(&eye(lit().with(slivers, lambert(0.7))), &Shot::of(64).with(|options| options.seed = 1));
+        let picture = reference(
+            &eye(lit().with(slivers, lambert(0.7))),
+            &Shot::of(64).with(|options| options.seed = 1),
+        );
         picture.assert_sound("slivers");
         picture.assert_same(&expected, 8, 1e-3, &format!("aspect {aspect}"));
     }
@@ -104,16 +115,21 @@ fn with_ball(matrix: DMat4, corners: impl Fn(Vec3) -> Vec3) -> World {
 }
 
 fn both(world: &World, seed: u32) -> [Picture; 2] {
-    let staged = Stage::new(world.file.clone()).unwrap().staged(0);
+    let stage = Stage::new(world.file.clone()).unwrap();
     let shot = Shot::of(96).with(|options| options.seed = seed);
-    [Mode::Reference, Mode::Pathtrace].map(|mode| shot.render(mode, &staged))
+    [Mode::Reference, Mode::Pathtrace].map(|mode| shot.render(mode, stage.staged(0)))
 }
 
 /// Objects far from round, under matrices that make them round.
 #[test]
 fn matrices_of_any_scale() {
     let expected = both(&with_ball(DMat4::IDENTITY, |corner| corner), 0);
-    for scale in [DVec3::new(1e3, 1e-3, 1.0), DVec3::new(1e-3, 1e3, 1.0), DVec3::splat(1e-6), DVec3::new(1.0, 1.0, 1e6)] {
+    for scale in [
+        DVec3::new(1e3, 1e-3, 1.0),
+        DVec3::new(1e-3, 1e3, 1.0),
+        DVec3::splat(1e-6),
+        DVec3::new(1.0, 1.0, 1e6),
+    ] {
         let world = with_ball(DMat4::from_scale(scale), |corner| (corner.as_dvec3() / scale).as_vec3());
         assert_alike(&both(&world, 1), &expected, &format!("scale {scale}"));
     }
@@ -127,10 +143,16 @@ fn matrices_of_any_scale() {
 #[test]
 fn flattened_objects() {
     let flat = |corner: Vec3| Vec3::new(corner.x, -0.6, corner.z);
-    let matrix = DMat4::from_translation(DVec3::new(0.0, -0.6, 0.0)) * DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0));
+    let matrix =
+        DMat4::from_translation(DVec3::new(0.0, -0.6, 0.0)) * DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0));
     let expected = both(&with_ball(DMat4::IDENTITY, flat), 0);
     assert_alike(&both(&with_ball(matrix, |corner| corner), 1), &expected, "flattened");
-    for bad in [DMat4::ZERO, DMat4::from_cols_array(&[f64::NAN; 16]), DMat4::from_scale(DVec3::splat(1e-30)), DMat4::from_scale(DVec3::splat(f64::INFINITY))] {
+    for bad in [
+        DMat4::ZERO,
+        DMat4::from_cols_array(&[f64::NAN; 16]),
+        DMat4::from_scale(DVec3::splat(1e-30)),
+        DMat4::from_scale(DVec3::splat(f64::INFINITY)),
+    ] {
         for picture in both(&with_ball(bad, |corner| corner), 0) {
             picture.assert_sound(&format!("a matrix {bad}"));
         }
@@ -159,7 +181,7 @@ fn mirrored_rooms() {
     };
     world.file.frames.push(still);
     let pictures = both(&world, 1).map(|picture| mirrored(&picture));
-    let staged = staged(&room(32));
-    let expected = [Mode::Reference, Mode::Pathtrace].map(|mode| Shot::of(96).render(mode, &staged));
+    let expected =
+        [Mode::Reference, Mode::Pathtrace].map(|mode| Shot::of(96).render(mode, staged(&room(32))));
     assert_alike(&pictures, &expected, "a mirrored room");
 }

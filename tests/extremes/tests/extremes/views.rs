@@ -41,14 +41,16 @@ fn near_and_far_planes() {
 #[test]
 fn frustum_to_one_side() {
     let whole = reference(&room(32), &Shot::of(128));
-    let right = DMat4::from_translation(DVec3::new(-1.0, 0.0, 0.0)) * DMat4::from_scale(DVec3::new(2.0, 1.0, 1.0));
+    let right =
+        DMat4::from_translation(DVec3::new(-1.0, 0.0, 0.0)) * DMat4::from_scale(DVec3::new(2.0, 1.0, 1.0));
     let mut world = with_projection(right * room(32).file.view.projection);
     world.file.size = [16, 32];
     let picture = reference(&world, &Shot::of(128).with(|options| options.seed = 1));
     picture.assert_sound("a frustum to one side");
     for y in 0..4 {
         for x in 0..2 {
-            let (own, theirs) = (picture.block([x * 8, y * 8], [8, 8]), whole.block([16 + x * 8, y * 8], [8, 8]));
+            let (own, theirs) =
+                (picture.block([x * 8, y * 8], [8, 8]), whole.block([16 + x * 8, y * 8], [8, 8]));
             assert!(own.agrees_with(theirs, 0.0), "{own:?}, {theirs:?}");
         }
     }
@@ -81,17 +83,17 @@ fn projections_that_are_none() {
         Mat4::from_cols_array(&[f32::NAN; 16]),
     ];
     for projection in [zero, flat, lost] {
-        let (mut frame, mut scene) = staged(&world);
-        if let Some(camera) = &mut scene.camera {
-            camera.projection = projection;
-        }
-        for transform in &mut frame.transforms {
-            let modelview = Mat4::from_cols_array_2d(&transform.modelview);
-            transform.projection = projection.to_cols_array_2d();
-            transform.modelview_projection = (projection * modelview).to_cols_array_2d();
-        }
         for mode in [Mode::Reference, Mode::Pathtrace] {
-            let picture = Shot::of(4).render(mode, &(frame.clone(), scene.clone()));
+            let (mut frame, mut scene) = staged(&world);
+            if let Some(camera) = &mut scene.camera {
+                camera.projection = projection;
+            }
+            for transform in &mut frame.transforms {
+                let modelview = Mat4::from_cols_array_2d(&transform.modelview);
+                transform.projection = projection.to_cols_array_2d();
+                transform.modelview_projection = (projection * modelview).to_cols_array_2d();
+            }
+            let picture = Shot::of(4).render(mode, (frame, scene));
             assert!(picture.is_sound() && picture.non_finite == 0, "{projection}, {mode:?}");
             assert_eq!(picture.rays, 0, "{projection}, {mode:?}");
         }

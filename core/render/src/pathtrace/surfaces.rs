@@ -125,7 +125,7 @@ pub(crate) fn surface_draw(
         bake: BAKE_NONE,
         first_light: NO_LIGHT,
         base_color: [-1.0; 3],
-        padding: 0,
+        reach: f32::INFINITY,
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod gl;
 mod gl_client;
+mod lights;
 mod scene;
 mod xlib;
 
@@ -22,6 +23,8 @@ enum What {
     Gl(gl::Arguments),
     /// What understanding frames costs, beside playing and copying them: of traces, and of worlds that grow.
     Scene(scene::Arguments),
+    /// What many lights cost, and what choosing among them well is worth.
+    Lights(lights::Arguments),
     /// One side of `gl`: measures the libGL that is found first, and prints the figures as JSON.
     #[command(hide = true)]
     GlClient(gl_client::Arguments),
@@ -32,6 +35,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.what {
         What::Gl(arguments) => gl::run(arguments),
         What::Scene(arguments) => scene::run(arguments),
+        What::Lights(arguments) => lights::run(arguments),
         What::GlClient(arguments) => gl_client::run(arguments),
     }
 }

@@ -98,6 +98,70 @@ impl DeviceArguments {
     }
 }
 
+/// How one of many lights is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LightChoice {
+    /// By what it may bring, several candidates by what they bring unshadowed
+    Resampled,
+    /// All with equal chances
+    Uniform,
+}
+
+/// How light is found.
+#[derive(Debug, Args)]
+pub struct LightArguments {
+    /// Bounces of light between surfaces (pathtrace)
+    #[arg(long, value_name = "N", default_value_t = 1, env = "AFTERGLOW_BOUNCES", value_parser = clap::value_parser!(u32).range(0..=63))]
+    pub bounces: u32,
+    /// How one of many lights is chosen
+    #[arg(
+        long,
+        value_enum,
+        value_name = "HOW",
+        default_value = "resampled",
+        env = "AFTERGLOW_LIGHTS",
+        hide_short_help = true
+    )]
+    pub lights: LightChoice,
+    /// Candidates of which one light is kept
+    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_CANDIDATES", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub candidates: u32,
+    /// Lights that a sample asks at the surface that is seen (pathtrace)
+    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_ASKED", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub asked: u32,
+    /// Choose lights for each pixel and frame alone (pathtrace)
+    #[arg(long, hide_short_help = true)]
+    pub no_reuse: bool,
+    /// Radiance that a sample brings at most; `inf` for no limit (pathtrace)
+    #[arg(long, value_name = "RADIANCE", default_value_t = 16.0, env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
+    pub limit: f32,
+    /// Leave the noise of few samples in the picture
+    #[arg(long)]
+    pub no_filter: bool,
+}
+
+impl LightArguments {
+    /// Tells a renderer.
+    pub fn apply(&self, options: &mut render::PathtraceOptions) {
+        options.surfaces = self.bounces + 1;
+        options.light_choice = match self.lights {
+            LightChoice::Resampled => render::LightChoice::Resampled,
+            LightChoice::Uniform => render::LightChoice::Uniform,
+        };
+        (options.candidates, options.asked) = (self.candidates, self.asked);
+        options.keeps_lights = !self.no_reuse && self.lights == LightChoice::Resampled;
+        options.most_radiance = self.limit;
+        options.filter = !self.no_filter;
+    }
+}
+
+fn limit(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(limit) if limit > 0.0 => Ok(limit),
+        _ => Err(format!("'{text}' is no radiance above 0")),
+    }
+}
+
 /// What is known of the program beforehand.
 #[derive(Debug, Args)]
 pub struct ProfileArguments {

@@ -14,7 +14,7 @@ use afterglow_scene_file::{SceneFile, Stage};
 use clap::{Args, ValueEnum};
 
 use crate::failure::{self, Failure};
-use crate::options::{DeviceArguments, Mode, Size, number};
+use crate::options::{DeviceArguments, LightArguments, Mode, Size, number};
 use crate::output;
 use destination::Destination;
 use painter::{Painter, Picture};
@@ -55,6 +55,8 @@ pub struct Arguments {
     /// Size of the picture; the default is the scene's
     #[arg(long, value_name = "WxH", env = "AFTERGLOW_SIZE")]
     size: Option<Size>,
+    #[command(flatten)]
+    light: LightArguments,
     #[command(flatten)]
     device: DeviceArguments,
     /// Also write the figures as JSON (`-`: to standard output)

@@ -14,7 +14,9 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::{self, Failure};
-use crate::options::{Baked, DeviceArguments, Frames, KeepArguments, Mode, ProfileArguments, Size};
+use crate::options::{
+    Baked, DeviceArguments, Frames, KeepArguments, LightArguments, Mode, ProfileArguments, Size,
+};
 use crate::output;
 use report::Report;
 use session::Session;
@@ -51,9 +53,8 @@ pub struct Arguments {
     /// Print figures: frame rate, passes, calls
     #[arg(long)]
     stats: bool,
-    /// Leave the noise of few samples in the picture
-    #[arg(long)]
-    no_filter: bool,
+    #[command(flatten)]
+    light: LightArguments,
     /// Do not search for the light sources that baked light comes from
     #[arg(long)]
     no_relight: bool,
@@ -107,7 +108,7 @@ impl Arguments {
     fn pathtrace_options(&self) -> Result<PathtraceOptions, Failure> {
         let mut options = PathtraceOptions::default();
         (options.spp, options.seed) = (self.spp, self.seed);
-        options.filter = !self.no_filter;
+        self.light.apply(&mut options);
         // Frames wait for it, so that a trace always gives the same pictures.
         options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
         options.replacing = self.baked.replacing();

@@ -10,16 +10,9 @@
 #define AFTERGLOW_BVH_GLSL
 
 #include "bvh_node.glsl"
+#include "trace_hit.glsl"
 
 bool accept_hit(uint instance, uint primitive, vec2 barycentrics);
-
-struct Hit {
-    float t;           // in lengths of the ray's direction
-    vec2 barycentrics; // weights of the second and third corner; 0 on a sphere
-    uint primitive;    // the number of the triangle or sphere in its bottom level
-    uint instance;     // the instance's id
-    bool front;        // the corners run counter-clockwise as seen from the origin, in object space; of a sphere, the outside
-};
 
 // The closest hit in (t_min, t_max], t_min not negative, or some hit where any_hit is set, among instances that share a
 // bit with `mask`. `direction` may have any length but 0. Back faces count. Of hits at the same t the

@@ -185,6 +185,7 @@ fn options(arguments: &Arguments) -> PathtraceOptions {
     let mut options = PathtraceOptions::default();
     (options.spp, options.seed) = (arguments.spp.unwrap_or(SAMPLES), arguments.seed);
     options.keeps_radiance = true;
+    arguments.light.apply(&mut options);
     options.relighting = Relighting::Off;
     options.memory_bytes = 0;
     (options.target, options.surfaces) = match arguments.target {

@@ -56,6 +56,15 @@ accesses! {
         DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
     DEPTH_READ_ONLY = [EARLY_FRAGMENT_TESTS | LATE_FRAGMENT_TESTS]
         [DEPTH_STENCIL_ATTACHMENT_READ] DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+    /// Storage that shaders of ray-tracing pipelines read and write.
+    TRACE_READ_WRITE = [RAY_TRACING_SHADER_KHR] [SHADER_STORAGE_READ | SHADER_STORAGE_WRITE] GENERAL;
+    /// Acceleration structures that rays go through.
+    TRACE_STRUCTURE = [RAY_TRACING_SHADER_KHR] [ACCELERATION_STRUCTURE_READ_KHR] UNDEFINED;
+    /// What structures are built from.
+    BUILD_INPUT = [ACCELERATION_STRUCTURE_BUILD_KHR] [SHADER_READ] UNDEFINED;
+    /// Structures that are built, and their scratch memory; structures that are read meanwhile.
+    BUILD_STRUCTURE = [ACCELERATION_STRUCTURE_BUILD_KHR]
+        [ACCELERATION_STRUCTURE_READ_KHR | ACCELERATION_STRUCTURE_WRITE_KHR] UNDEFINED;
     PRESENT = [NONE] [NONE] PRESENT_SRC_KHR;
     /// Everything, when nothing finer is known.
     ALL = [ALL_COMMANDS] [MEMORY_READ | MEMORY_WRITE] GENERAL;

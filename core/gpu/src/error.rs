@@ -30,6 +30,9 @@ pub enum GpuError {
     /// A size, range or count that the resource or the device does not allow.
     #[error("{what}: {detail}")]
     Invalid { what: &'static str, detail: String },
+    /// What is asked for is beyond the device's features.
+    #[error("{device} has no {what}")]
+    Unsupported { what: &'static str, device: String },
     /// The table of bindless resources of one kind has no free slot.
     #[error("all {capacity} bindless slots for {kind} are taken")]
     BindlessFull { kind: &'static str, capacity: u32 },

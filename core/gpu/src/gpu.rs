@@ -16,6 +16,7 @@ use crate::instance::{Drivers, Instance, InstanceOptions, Loader, OPENING_AND_CL
 use crate::lavapipe::{self, PrivateLavapipe};
 use crate::memory::Memory;
 use crate::pipeline_cache::PipelineCache;
+use crate::ray_tracing::RayTracing;
 use crate::timeline::Timeline;
 
 /// What to look for, and with how much checking.
@@ -80,6 +81,8 @@ pub(crate) struct Shared {
     /// Functions of extensions that Vulkan 1.3 has in its core; `None` where the core's are to be used.
     pub(crate) synchronization2: Option<ash::khr::synchronization2::Device>,
     pub(crate) dynamic_rendering: Option<ash::khr::dynamic_rendering::Device>,
+    /// None on a device without acceleration structures and ray-tracing pipelines.
+    pub(crate) ray_tracing: Option<RayTracing>,
     pub(crate) debug_utils: Option<ash::ext::debug_utils::Device>,
     pub(crate) queue: Mutex<vk::Queue>,
     pub(crate) memory: Memory,
@@ -304,6 +307,7 @@ fn open(instance: Instance, candidate: Candidate, options: &GpuOptions) -> Resul
         shared: Arc::new(Shared {
             synchronization2: (!core13).then(|| ash::khr::synchronization2::Device::new(raw, &device)),
             dynamic_rendering: (!core13).then(|| ash::khr::dynamic_rendering::Device::new(raw, &device)),
+            ray_tracing: RayTracing::load(&instance, &candidate, &device),
             debug_utils: instance.has_debug_utils.then(|| ash::ext::debug_utils::Device::new(raw, &device)),
             queue: Mutex::new(queue),
             memory: parts.memory,

@@ -172,6 +172,14 @@ impl PipelineLayout {
         self.raw
     }
 
+    /// Destroys a pipeline of this layout, whose handle is given up, when the device has finished with it.
+    pub(crate) fn retire_pipeline(&self, pipeline: vk::Pipeline) {
+        self.shared.retire(move |shared: &Shared| {
+            // SAFETY: the device has finished with it, and its handle goes with it.
+            unsafe { shared.device.destroy_pipeline(pipeline, None) };
+        });
+    }
+
     /// The stages that see the push constants.
     pub fn stages(&self) -> vk::ShaderStageFlags {
         self.stages
@@ -186,11 +194,7 @@ impl ShaderModule {
 
 impl Drop for ComputePipeline {
     fn drop(&mut self) {
-        let raw = self.raw;
-        self.layout.shared.retire(move |shared: &Shared| {
-            // SAFETY: the device has finished with it, and its handle goes with it.
-            unsafe { shared.device.destroy_pipeline(raw, None) };
-        });
+        self.layout.retire_pipeline(self.raw);
     }
 }
 

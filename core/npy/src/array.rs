@@ -17,8 +17,8 @@ impl Array {
     /// If the header is damaged, or there are more or fewer numbers than it says.
     pub fn parse(mut file: &[u8]) -> Result<Self, NpyError> {
         let header = Header::read(&mut file)?;
-        let sides = header.shape.iter();
-        let expected = sides.fold(Some(header.element.bytes()), |bytes, side| bytes?.checked_mul(*side));
+        let mut sides = header.shape.iter();
+        let expected = sides.try_fold(header.element.bytes(), |bytes, side| bytes.checked_mul(*side));
         match expected {
             Some(expected) if expected == file.len() => Ok(Self { header, bytes: file.to_vec() }),
             expected => Err(NpyError::Length { expected: expected.unwrap_or(usize::MAX), found: file.len() }),

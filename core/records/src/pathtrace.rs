@@ -152,6 +152,11 @@ shared_struct! {
         pub counters: u64,
         /// Of each pixel the mean radiance and what its variance follows from ([`RadianceTexel`]); `reference` only.
         pub radiance: u64,
+        /// [`ReservoirTexel`]s of this frame and of the one before; 0 where lights are not kept from frame to frame, or were not.
+        pub reservoirs: u64,
+        pub reservoirs_before: u64,
+        /// [`SurfaceTexel`]s of the frame before.
+        pub surfaces_before: u64,
         /// The top level.
         pub world: u64,
         /// [`SurfaceTexel`]s, one a pixel, rows from the top.
@@ -221,6 +226,12 @@ shared_struct! {
         pub pixel_origin: [f32; 3],
         pub pixel_right: [f32; 3],
         pub pixel_down: [f32; 3],
+        /// Positions to clip space of the frame before, rows of a 4x4 matrix.
+        pub clip_before: [[f32; 4]; 4],
+        /// What is added to positions of the frame before to be relative to this one's camera.
+        pub origin_before: [f32; 3],
+        /// Frames traced before this one.
+        pub frame_number: u32,
     }
 }
 
@@ -262,6 +273,19 @@ shared_struct! {
         /// Sum of squared differences from the mean (Welford, Note on a Method for Calculating Corrected Sums of Squares
         /// and Products, 1962).
         pub squares: [f32; 3],
+    }
+}
+
+shared_struct! {
+    /// A light that a pixel has kept of many, with the point of it, in the space of the numbers that choose the point.
+    pub struct ReservoirTexel {
+        pub light: u32,
+        /// The numbers, two unorm16.
+        pub point: u32,
+        /// What the light's sample is multiplied by in place of 1 over the chance of its choice.
+        pub weight: f32,
+        /// How many candidates it was kept of.
+        pub count: f32,
     }
 }
 

@@ -115,7 +115,7 @@ impl Renderer {
         Ok(Seat {
             target: Target::new(&self.gpu, [1, 1])?,
             accumulator: Accumulator::new(&self.gpu),
-            tracer: self.tracer.as_ref().map(|tracer| tracer.beside(&self.gpu)),
+            tracer: self.tracer.as_ref().map(|tracer| tracer.beside(&self.gpu)).transpose()?,
             swaps: 0,
         })
     }

@@ -335,6 +335,7 @@ impl Renderer {
                         commands,
                         table: &self.table,
                         pipelines: &tracer.pipelines,
+                        structures: tracer.world.structures(),
                         buffers,
                         prepared: traced,
                     };

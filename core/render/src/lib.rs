@@ -42,7 +42,7 @@ pub use afterglow_frame_graph::CulledReport;
 pub use afterglow_records::Paint;
 pub use drawables::Carried;
 pub use error::RenderError;
-pub use pathtrace::{Displaced, LightChoice, Mode, PathtraceOptions, Radiance, Target, TraceCounts};
+pub use pathtrace::{Backend, Displaced, LightChoice, Mode, PathtraceOptions, Radiance, Target, TraceCounts};
 pub use renderer::{RenderOptions, Renderer};
 pub use report::{FrameReport, PassReport, SceneReport};
 pub use scale::Scale;

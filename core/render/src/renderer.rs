@@ -143,7 +143,9 @@ impl Renderer {
     pub fn set_mode(&mut self, mode: Mode, options: &PathtraceOptions) -> Result<(), RenderError> {
         match (mode, &mut self.tracer) {
             (Mode::Raster, _) => self.stop_tracing(),
-            (Mode::Pathtrace | Mode::Reference, Some(tracer)) => tracer.set_options(mode, options),
+            (Mode::Pathtrace | Mode::Reference, Some(tracer)) => {
+                tracer.set_options(&self.gpu, &self.table, mode, options)?;
+            }
             (Mode::Pathtrace | Mode::Reference, None) => {
                 self.tracer = Tracer::new(&self.gpu, &self.table, mode, options.clone())?;
             }

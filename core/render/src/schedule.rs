@@ -115,7 +115,10 @@ pub(crate) fn schedule(
     {
         graph.output(output);
     }
-    let views = traced.map(|traced| ViewResources::declare(&mut graph, traced.buffers, traced.world));
+    let views = traced.map(|traced| {
+        let prepared = traced.prepared;
+        ViewResources::declare(&mut graph, traced.buffers, traced.world, prepared.backend, prepared.parity)
+    });
     let mut declaring =
         Declaring { graph, resources, views, begun: None, work: Vec::with_capacity(plan.steps.len() + 1) };
     for (index, step) in plan.steps.iter().enumerate() {
@@ -214,7 +217,7 @@ impl Declaring {
             views,
             view,
             &prepared.views[view].needs,
-            !prepared.copies.is_empty(),
+            prepared.has_builds,
         );
         self.work.extend(work.into_iter().map(Work::Trace));
     }

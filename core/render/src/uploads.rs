@@ -1,6 +1,6 @@
 //! Memory that the processor fills for one frame: vertices, tables, texels on their way to images.
 
-use afterglow_gpu::{Buffer, BufferDesc, BufferKind, Gpu, GpuError, vk};
+use afterglow_gpu::{Buffer, BufferDesc, BufferKind, Gpu, GpuError, STRUCTURE_INPUT, vk};
 
 /// Bytes of an ordinary chunk; larger data get a chunk of their own.
 const CHUNK_BYTES: u64 = 4 << 20;
@@ -79,9 +79,17 @@ impl UploadArena {
 
     fn add_chunk(&mut self, size: u64) -> Result<usize, GpuError> {
         let desc = BufferDesc::new("uploads", BufferKind::Upload, size.max(CHUNK_BYTES))
-            .usage(vk::BufferUsageFlags::INDEX_BUFFER);
+            .usage(vk::BufferUsageFlags::INDEX_BUFFER | structure_input(&self.gpu));
         self.chunks.push(Chunk { buffer: self.gpu.create_buffer(&desc)?, used: 0, idle_frames: 0 });
         Ok(self.chunks.len() - 1)
+    }
+}
+
+/// What acceleration structures are built from may lie here, where there are any.
+fn structure_input(gpu: &Gpu) -> vk::BufferUsageFlags {
+    match gpu.ray_tracing() {
+        Some(_) => STRUCTURE_INPUT,
+        None => vk::BufferUsageFlags::empty(),
     }
 }
 

@@ -30,7 +30,7 @@ struct SurfaceDraw { // 248 bytes
     uint bake;
     uint first_light;
     vec3 base_color;
-    uint padding;
+    float reach;
 };
 #endif
 
@@ -76,7 +76,7 @@ struct LightNode { // 64 bytes
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 288 bytes
+struct ViewRecord { // 392 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
@@ -84,6 +84,9 @@ struct ViewRecord { // 288 bytes
     uint64_t light_nodes;
     uint64_t counters;
     uint64_t radiance;
+    uint64_t reservoirs;
+    uint64_t reservoirs_before;
+    uint64_t surfaces_before;
     uint64_t world;
     uint64_t surfaces;
     uint64_t light;
@@ -121,6 +124,9 @@ struct ViewRecord { // 288 bytes
     vec3 pixel_origin;
     vec3 pixel_right;
     vec3 pixel_down;
+    mat4 clip_before;
+    vec3 origin_before;
+    uint frame_number;
 };
 #endif
 
@@ -160,6 +166,16 @@ struct TraceCounters { // 16 bytes
     uint limited;
     uint removed;
     uint rays;
+};
+#endif
+
+#ifndef STRUCT_ReservoirTexel
+#define STRUCT_ReservoirTexel
+struct ReservoirTexel { // 16 bytes
+    uint light;
+    uint point;
+    float weight;
+    float count;
 };
 #endif
 

@@ -18,6 +18,7 @@ TABLE(LightNodeTable, LightNode);
 TEXELS(SurfaceTexels, SurfaceTexel);
 TEXELS(LightTexels, LightTexel);
 TEXELS(RadianceTexels, RadianceTexel);
+TEXELS(Reservoirs, ReservoirTexel);
 TEXELS(Counters, TraceCounters);
 TEXELS(ColorTexels, vec4);
 TEXELS(ExposureSums, ExposureSum);

@@ -9,7 +9,7 @@
 
 #include "trace.glsl"
 #include "pathtrace/finite.glsl"
-#include "pathtrace/path.glsl"
+#include "pathtrace/reservoir.glsl"
 
 // How dark things that touch a surface with baked light make it.
 const float CONTACT_STRENGTH = 0.85;
@@ -96,8 +96,20 @@ void add_sample(ViewRecord view, Channels light, inout Channels sums) {
     sums.open += light.open;
 }
 
+// The ray of a path's stage. Where lights are kept over time, the first surface asks by those.
+RayPlan plan_seen(ViewRecord view, inout Path path, PathRandom random, uvec2 pixel, uint kind) {
+    bool is_kept = view.reservoirs != 0ul && path.surfaces == 0u && path.stage < view.asked;
+    if (!is_kept) {
+        return plan_ray(view, path, random);
+    }
+    uint dimension = DIMENSION_ASKED + DIMENSIONS_ASKED * path.stage;
+    Asked asked = chosen_among_neighbours(view, path, random, dimension, pixel, kind);
+    asked.weight /= float(view.asked);
+    return shadow_plan(path, asked);
+}
+
 // The samples of a pixel. `seen` reflects what it is asked for: its albedo meets the light when the picture is made.
-Sums gather(ViewRecord view, SurfacePoint seen, uint kind, uint mask, uint random_pixel) {
+Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mask, uint random_pixel) {
     Sums sums = Sums(no_channels(), Shade(0.0, vec3(0.0), vec3(0.0)));
     bool is_baked = kind == SURFACE_BAKED;
     PathRandom random = PathRandom(Random(random_pixel, view.accumulated), view.seed);
@@ -112,7 +124,7 @@ Sums gather(ViewRecord view, SurfacePoint seen, uint kind, uint mask, uint rando
         if (is_baked) {
             plan = plan_shade(view, path, random, asked);
         } else {
-            plan = plan_ray(view, path, random);
+            plan = plan_seen(view, path, random, pixel, kind);
         }
         Hit hit;
         bool met = false;
@@ -150,26 +162,15 @@ vec3 light_left(ViewRecord view, Shade shade) {
     return pow(clamp(left, 0.0, 1.0), vec3(2.2));
 }
 
-// A pixel's surface, its diffuse lobe white.
-SurfacePoint seen_point(SurfaceTexel surface) {
-    SurfacePoint seen = shining_point(vec3(0.0), NO_LIGHT);
-    seen.start = surface.start;
-    seen.normal = unpack_unit_vector(surface.normal);
-    seen.geometric = unpack_unit_vector(surface.geometric);
-    vec3 specular = linear_from_srgb(unpack_color(surface.specular));
-    seen.bsdf = Bsdf(vec3(has_diffuse_lobe(surface) ? 1.0 : 0.0), specular, alpha_of(unpack_fourth(surface.specular)));
-    seen.is_end = false;
-    return seen;
-}
-
 // The mean of a pixel's samples, as composition takes it.
-LightTexel found_light(ViewRecord view, SurfaceTexel surface, uint index) {
+LightTexel found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel) {
     uint kind = surface_kind(surface);
     if (kind == SURFACE_BAKED && view.has_movers == 0u) {
         return LightTexel(vec3(0.0), vec3(1.0), vec3(0.0));
     }
     SurfacePoint seen = seen_point(surface);
-    Sums sums = gather(view, seen, kind, surface_ray_mask(surface), hash(index + hash(view.seed)));
+    uint index = pixel.y * view.width + pixel.x;
+    Sums sums = gather(view, seen, pixel, kind, surface_ray_mask(surface), hash(index + hash(view.seed)));
     if (kind == SURFACE_BAKED) {
         return LightTexel(vec3(0.0), light_left(view, sums.shade), vec3(0.0));
     }
@@ -209,7 +210,7 @@ void main() {
     SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
     LightTexel light = LightTexel(vec3(0.0), vec3(0.0), vec3(0.0));
     if (surface_kind(surface) != SURFACE_NONE) {
-        light = found_light(view, surface, index);
+        light = found_light(view, surface, pixel);
         if (view.accumulated != 0u) {
             LightTexel before = LightTexels(view.light).entries[index];
             float share = float(view.samples) / float(view.accumulated + view.samples);

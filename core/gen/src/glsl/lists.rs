@@ -53,6 +53,7 @@ pub fn pathtrace() -> Vec<StructDescription> {
         LightTexel,
         RadianceTexel,
         TraceCounters,
+        ReservoirTexel,
         ExposureSum,
         MoverSum,
         Exposure,

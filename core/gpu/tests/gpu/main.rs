@@ -7,5 +7,6 @@ mod choice;
 mod compute;
 mod images;
 mod lifetimes;
+mod rays;
 mod support;
 mod validation;

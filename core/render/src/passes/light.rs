@@ -17,16 +17,19 @@ pub(crate) fn declare(
     view: usize,
     needs: &ViewNeeds,
 ) {
-    let mut pass = graph.pass("light", PassKind::Compute);
-    pass.read(views.surfaces, Access::StorageReadCompute)
-        .read(views.world, Access::StorageReadCompute)
-        .read(frame.geometry, Access::StorageReadCompute)
-        .read(frame.textures, Access::StorageReadCompute)
-        .read_write(views.counters, Access::StorageWriteCompute)
-        .write(views.indirect[0], Access::StorageWriteCompute)
+    let mut pass = graph.pass("light", views.backend.pass());
+    pass.read(views.surfaces, views.backend.reads())
+        .read(views.world, views.backend.meets())
+        .read(frame.geometry, views.backend.reads())
+        .read(frame.textures, views.backend.reads())
+        .read_write(views.counters, views.backend.writes())
+        .write(views.indirect[0], views.backend.writes())
         .when(!needs.is_idle, IDLE_REASON);
+    if let (Some([reservoirs, _]), Ok(())) = (views.reservoirs, needs.keeps_lights) {
+        pass.read(reservoirs, views.backend.reads());
+    }
     match needs.continues {
-        true => pass.read_write(views.light[view], Access::StorageWriteCompute),
-        false => pass.write(views.light[view], Access::StorageWriteCompute),
+        true => pass.read_write(views.light[view], views.backend.writes()),
+        false => pass.write(views.light[view], views.backend.writes()),
     };
 }

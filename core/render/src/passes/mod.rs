@@ -12,5 +12,6 @@ pub(crate) mod pixels;
 pub(crate) mod raster;
 pub(crate) mod readback;
 pub(crate) mod reference;
+pub(crate) mod reservoir;
 pub(crate) mod surface;
 pub(crate) mod transfers;

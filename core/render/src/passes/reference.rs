@@ -1,19 +1,19 @@
 //! Radiance by rays of the camera.
 
-use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
+use afterglow_frame_graph::GraphBuilder;
 
 use crate::pathtrace::schedule::{ViewNeeds, ViewResources};
 use crate::schedule::Resources;
 
 pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewResources, needs: &ViewNeeds) {
     let Some(radiance) = views.radiance else { return };
-    let mut pass = graph.pass("reference", PassKind::Compute);
-    pass.read(views.world, Access::StorageReadCompute)
-        .read(frame.geometry, Access::StorageReadCompute)
-        .read(frame.textures, Access::StorageReadCompute)
-        .read_write(views.counters, Access::StorageWriteCompute);
+    let mut pass = graph.pass("reference", views.backend.pass());
+    pass.read(views.world, views.backend.meets())
+        .read(frame.geometry, views.backend.reads())
+        .read(frame.textures, views.backend.reads())
+        .read_write(views.counters, views.backend.writes());
     match needs.continues {
-        true => pass.read_write(radiance, Access::StorageWriteCompute),
-        false => pass.write(radiance, Access::StorageWriteCompute),
+        true => pass.read_write(radiance, views.backend.writes()),
+        false => pass.write(radiance, views.backend.writes()),
     };
 }

@@ -6,7 +6,7 @@ use afterglow_gpu::{
 };
 use afterglow_layout::SharedStruct;
 use afterglow_records::{
-    Exposure, ExposureSum, LightTexel, MoverSum, RadianceTexel, SurfaceTexel, TraceCounters,
+    Exposure, ExposureSum, LightTexel, MoverSum, RadianceTexel, ReservoirTexel, SurfaceTexel, TraceCounters,
 };
 
 use crate::target::{COLOR_FORMAT, Target};
@@ -44,7 +44,10 @@ pub(crate) struct ViewBuffers {
     color: vk::Image,
     /// Bindless index of the window's colour as a storage image.
     pub(crate) color_index: u32,
-    pub(crate) surfaces: Tracked,
+    /// Of this frame and of the one before, which one is which by the frame's number.
+    pub(crate) surfaces: [Tracked; 2],
+    /// Likewise; none before lights were first kept.
+    pub(crate) reservoirs: Option<[Tracked; 2]>,
     /// Of each view of a frame.
     pub(crate) light: Vec<Tracked>,
     pub(crate) indirect: [Tracked; 2],
@@ -74,7 +77,11 @@ impl ViewBuffers {
             visibility: TrackedImage { image: visibility, state: ResourceState::UNDEFINED },
             color: target.color.raw(),
             color_index: storage_index(table, &target.color)?,
-            surfaces: buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
+            surfaces: [
+                buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
+                buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
+            ],
+            reservoirs: None,
             light: Vec::new(),
             indirect: [
                 buffer("indirect", pixels * INDIRECT_BYTES)?,
@@ -107,6 +114,16 @@ impl ViewBuffers {
         if self.radiance.is_none() {
             let bytes = pixels(self.size) * stride::<RadianceTexel>();
             self.radiance = Some(Tracked::new(gpu, "radiance", bytes)?);
+        }
+        Ok(())
+    }
+
+    /// Makes sure that lights can be kept.
+    pub(crate) fn reserve_reservoirs(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        if self.reservoirs.is_none() {
+            let bytes = pixels(self.size) * stride::<ReservoirTexel>();
+            let buffer = || Tracked::new(gpu, "reservoirs", bytes);
+            self.reservoirs = Some([buffer()?, buffer()?]);
         }
         Ok(())
     }

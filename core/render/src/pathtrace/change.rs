@@ -96,13 +96,15 @@ pub(crate) struct History {
     hash: u64,
     /// Samples a pixel.
     samples: u32,
+    /// The number of the frame in which it began.
+    begun: u32,
 }
 
 impl History {
     /// Goes on from the last frame, or begins anew. Returns how many samples there are already.
-    pub(crate) fn advance(&mut self, hash: u64, may_continue: bool, samples: u32) -> u32 {
+    pub(crate) fn advance(&mut self, hash: u64, may_continue: bool, samples: u32, frame: u32) -> u32 {
         if !may_continue || self.hash != hash || self.samples >= MOST_SAMPLES {
-            *self = Self { hash, samples: 0 };
+            *self = Self { hash, samples: 0, begun: frame };
         }
         let before = self.samples;
         self.samples += samples;
@@ -112,6 +114,11 @@ impl History {
     /// Samples a pixel, those of the frame that was advanced to included.
     pub(crate) fn samples(&self) -> u32 {
         self.samples
+    }
+
+    /// The number of the frame in which it began.
+    pub(crate) fn begun(&self) -> u32 {
+        self.begun
     }
 
     /// What was gathered is gone.
@@ -127,12 +134,12 @@ mod tests {
     #[test]
     fn samples_add_up_until_something_changes() {
         let mut history = History::default();
-        assert_eq!(history.advance(5, true, 4), 0);
-        assert_eq!(history.advance(5, true, 4), 4);
-        assert_eq!(history.advance(6, true, 4), 0);
-        assert_eq!(history.advance(6, true, 4), 4);
-        assert_eq!(history.advance(6, false, 4), 0);
+        assert_eq!(history.advance(5, true, 4, 0), 0);
+        assert_eq!(history.advance(5, true, 4, 0), 4);
+        assert_eq!(history.advance(6, true, 4, 0), 0);
+        assert_eq!(history.advance(6, true, 4, 0), 4);
+        assert_eq!(history.advance(6, false, 4, 0), 0);
         history.forget();
-        assert_eq!(history.advance(6, true, 4), 0);
+        assert_eq!(history.advance(6, true, 4, 0), 0);
     }
 }

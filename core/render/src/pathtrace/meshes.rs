@@ -1,22 +1,25 @@
-//! Bottom levels on the device, found by their content.
+//! Structures of the software backend: bottom levels on the device, found by their content, and a top level a frame.
 
-use afterglow_bvh::{Aabb, Blas, BlasInput, Quality, TriangleAttributes, build_blas_with};
+use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
+use afterglow_bvh::{
+    Aabb, Blas, BlasInput, Instance, Quality, TriangleAttributes, build_blas_with, build_tlas,
+};
 use afterglow_gpu::{Commands, Gpu, GpuError, vk};
+use afterglow_records::MEMBER_SHIFT;
 use hashbrown::HashMap;
 
 use super::slabs::{Part, Slabs};
+use super::structures::{IDLE_FRAMES, Member, MeshInput, Placed, Shapes, TopLevel, longest_side};
 use crate::uploads::{Upload, UploadArena};
 
-/// Frames after which a mesh that no frame has used is given up.
-const IDLE_FRAMES: u64 = 60;
 /// Meshes of more triangles are built fast, whatever they are.
 const MOST_IMPROVED: usize = 20_000;
 
 /// A bottom level on the device.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Mesh {
-    pub(crate) address: u64,
-    pub(crate) bounds: Aabb,
+struct Mesh {
+    address: u64,
+    bounds: Aabb,
 }
 
 struct Entry {
@@ -28,7 +31,7 @@ struct Entry {
 
 /// A copy that brings a structure to its place.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct MeshCopy {
+struct MeshCopy {
     from: Upload,
     to: vk::Buffer,
     offset: u64,
@@ -40,7 +43,7 @@ pub(crate) struct Meshes {
     slabs: Slabs,
     entries: HashMap<u64, Entry>,
     frame: u64,
-    pub(crate) copies: Vec<MeshCopy>,
+    copies: Vec<MeshCopy>,
     /// Triangles built in this frame.
     pub(crate) built: usize,
 }
@@ -71,42 +74,44 @@ impl Meshes {
         self.entries.contains_key(&content)
     }
 
-    /// The mesh of a content; none if it has no triangles to hit.
-    pub(crate) fn get(&mut self, content: u64) -> Option<Mesh> {
-        let entry = self.entries.get_mut(&content)?;
-        entry.used = self.frame;
-        entry.mesh
+    /// Says that this frame uses a mesh, and whether rays can meet anything of it.
+    pub(crate) fn take(&mut self, content: u64) -> bool {
+        self.entries.get_mut(&content).is_some_and(|entry| {
+            entry.used = self.frame;
+            entry.mesh.is_some()
+        })
     }
 
-    /// Builds a mesh from three corners a triangle. `is_lasting` says whether it will be used for long.
+    /// Builds a mesh.
     pub(crate) fn build(
         &mut self,
         content: u64,
-        corners: &[[f32; 3]],
-        attributes: &[TriangleAttributes],
-        is_lasting: bool,
+        input: &MeshInput<'_>,
         arena: &mut UploadArena,
     ) -> Result<(), GpuError> {
-        let indices: Vec<[u32; 3]> = (0..attributes.len() as u32)
-            .map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2])
-            .collect();
-        let quality = match is_lasting && attributes.len() <= MOST_IMPROVED {
-            true => Quality::Good,
-            false => Quality::Fast,
-        };
-        let input = BlasInput { positions: corners, indices: &indices, attributes, ..BlasInput::default() };
-        self.insert(content, &input, quality, arena)
-    }
-
-    /// Builds a mesh of spheres: middles and radii. A hit's primitive is the sphere's number.
-    pub(crate) fn build_spheres(
-        &mut self,
-        content: u64,
-        spheres: &[[f32; 4]],
-        arena: &mut UploadArena,
-    ) -> Result<(), GpuError> {
-        let input = BlasInput { spheres, ..BlasInput::default() };
-        self.insert(content, &input, Quality::Fast, arena)
+        match input.shapes {
+            Shapes::Triangles { corners, members } => {
+                let attributes = attributes(members);
+                let indices: Vec<[u32; 3]> = (0..attributes.len() as u32)
+                    .map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2])
+                    .collect();
+                let quality = match input.is_lasting && attributes.len() <= MOST_IMPROVED {
+                    true => Quality::Good,
+                    false => Quality::Fast,
+                };
+                let input = BlasInput {
+                    positions: corners,
+                    indices: &indices,
+                    attributes: &attributes,
+                    ..BlasInput::default()
+                };
+                self.insert(content, &input, quality, arena)
+            }
+            Shapes::Spheres(spheres) => {
+                let input = BlasInput { spheres, ..BlasInput::default() };
+                self.insert(content, &input, Quality::Fast, arena)
+            }
+        }
     }
 
     fn insert(
@@ -116,7 +121,7 @@ impl Meshes {
         quality: Quality,
         arena: &mut UploadArena,
     ) -> Result<(), GpuError> {
-        self.built += input.indices.len();
+        self.built += input.indices.len() + input.spheres.len();
         let blas = build_blas_with(input, quality)
             .map_err(|error| tracing::warn!("a mesh is left out: {error}"))
             .ok()
@@ -129,8 +134,54 @@ impl Meshes {
         Ok(())
     }
 
+    /// Makes the top level of a frame.
+    pub(crate) fn top_level(
+        &mut self,
+        placed: &[Placed],
+        arena: &mut UploadArena,
+    ) -> Result<TopLevel, GpuError> {
+        let instance = |placed: &Placed| {
+            let mesh = self.entries.get(&placed.content)?.mesh?;
+            Some(Instance {
+                object_to_world: placed.object_to_world,
+                blas: mesh.address,
+                bounds: mesh.bounds,
+                id: placed.id,
+                mask: placed.mask,
+                flags: 0,
+            })
+        };
+        let instances: Vec<_> = placed.iter().filter_map(instance).collect();
+        let tlas = build_tlas(&instances).unwrap_or_else(|error| {
+            tracing::warn!("rays meet nothing: {error}");
+            build_tlas(&[]).unwrap_or_else(|_| unreachable!("no instances are not too many"))
+        });
+        Ok(TopLevel {
+            address: self.upload_once(&tlas.words, arena)?,
+            instances: tlas.instance_count,
+            extent: longest_side(&tlas.bounds),
+        })
+    }
+
+    /// Whether this frame has anything to record.
+    pub(crate) fn has_work(&self) -> bool {
+        self.copies.iter().any(|copy| copy.bytes > 0)
+    }
+
+    /// Records copies of structures to their places.
+    pub(crate) fn record(&self, commands: &Commands<'_>) {
+        for copy in self.copies.iter().filter(|copy| copy.bytes > 0) {
+            let regions =
+                [vk::BufferCopy { src_offset: copy.from.offset, dst_offset: copy.offset, size: copy.bytes }];
+            // SAFETY: both buffers are this device's and hold these bytes; the target's are allocated for this copy.
+            unsafe {
+                commands.device().cmd_copy_buffer(commands.raw(), copy.from.buffer, copy.to, &regions);
+            }
+        }
+    }
+
     /// Brings words that only this frame reads to the device. Returns their address.
-    pub(crate) fn upload_once(&mut self, words: &[u32], arena: &mut UploadArena) -> Result<u64, GpuError> {
+    fn upload_once(&mut self, words: &[u32], arena: &mut UploadArena) -> Result<u64, GpuError> {
         let part = self.upload(words, arena)?;
         let address = part.address;
         self.slabs.free(part);
@@ -153,14 +204,12 @@ impl Meshes {
     }
 }
 
-/// Records copies of structures to their places.
-pub(crate) fn record_copies(commands: &Commands<'_>, copies: &[MeshCopy]) {
-    for copy in copies.iter().filter(|copy| copy.bytes > 0) {
-        let regions =
-            [vk::BufferCopy { src_offset: copy.from.offset, dst_offset: copy.offset, size: copy.bytes }];
-        // SAFETY: both buffers are this device's and hold these bytes; the target's are allocated for this copy.
-        unsafe {
-            commands.device().cmd_copy_buffer(commands.raw(), copy.from.buffer, copy.to, &regions);
-        }
-    }
+/// What hits report of the members' triangles, in order.
+fn attributes(members: &[Member]) -> Vec<TriangleAttributes> {
+    let of_member = |(number, member): (usize, &Member)| {
+        let first = (number as u32) << MEMBER_SHIFT;
+        let flags = if member.is_alpha_tested { FLAG_ALPHA_TESTED } else { 0 };
+        (0..member.triangles).map(move |triangle| TriangleAttributes { primitive: first | triangle, flags })
+    };
+    members.iter().enumerate().flat_map(of_member).collect()
 }

@@ -4,30 +4,39 @@
 //! read and the world that rays meet, `schedule` declares the passes, one file each in `passes`, and `record` records
 //! them. All else of the frame is rasterized as in `raster` mode.
 
+mod anchors;
 pub(crate) mod arrange;
+mod backend;
 pub(crate) mod buffers;
 mod change;
+mod compaction;
+mod driver_input;
 mod estimator;
 mod gather;
 mod geometry;
+mod hardware;
+mod kept;
 mod light_cone;
 mod light_tree;
 mod lights;
-pub(crate) mod meshes;
+mod meshes;
 mod options;
 mod pipelines;
 mod prepare;
+mod program;
 mod radiance;
 mod rays;
 mod record;
 mod said;
 pub(crate) mod schedule;
 mod slabs;
+pub(crate) mod structures;
 mod surfaces;
 mod tracer;
 mod unseen;
 mod world;
 
+pub use backend::Backend;
 pub(crate) use gather::TraceInput;
 pub use options::{Displaced, LightChoice, Mode, PathtraceOptions, Target};
 pub use prepare::TraceCounts;

@@ -6,6 +6,8 @@ use afterglow_records::Paint;
 use afterglow_scene::{Class, MEMORY_BYTES, Profile, ProgramCache, Relighting, Replacing};
 use glam::Vec3;
 
+use super::backend::Backend;
+
 /// What a frame becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Mode {
@@ -67,6 +69,8 @@ pub enum Displaced {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PathtraceOptions {
+    /// What traces rays.
+    pub backend: Backend,
     /// How far light is followed in [`Mode::Reference`].
     pub target: Target,
     /// Surfaces that a path may scatter at in [`Mode::Pathtrace`], the seen one included. Light that comes by more is missing,
@@ -78,6 +82,8 @@ pub struct PathtraceOptions {
     pub candidates: u32,
     /// Lights with a place that each sample asks at the seen surface, 1 to 4.
     pub asked: u32,
+    /// Of many lights, pixels keep one from frame to frame and lend it to their neighbours, in [`Mode::Pathtrace`].
+    pub keeps_lights: bool,
     /// Radiance that a sample may bring in each channel in [`Mode::Pathtrace`]; infinite for no limit. What that removes is
     /// counted.
     pub most_radiance: f32,
@@ -113,11 +119,13 @@ pub struct PathtraceOptions {
 impl Default for PathtraceOptions {
     fn default() -> Self {
         Self {
+            backend: Backend::Software,
             target: Target::Full,
             surfaces: 2,
             light_choice: LightChoice::Resampled,
             candidates: 4,
             asked: 4,
+            keeps_lights: true,
             most_radiance: 16.0,
             keeps_radiance: false,
             spp: 2,

@@ -1,8 +1,11 @@
-//! The compute pipelines of a view's passes.
+//! The pipelines of a view's passes.
 
 use afterglow_gpu::{BindlessTable, Commands, ComputeDesc, ComputePipeline, Gpu, GpuError};
 use afterglow_records::ViewPush;
 use afterglow_shaders as shaders;
+
+use super::backend::Backend;
+use super::program::{Program, ProgramDesc};
 
 /// Pixels along a side of a workgroup.
 const GROUP_EDGE: u32 = 8;
@@ -10,8 +13,9 @@ const GROUP_EDGE: u32 = 8;
 /// One pipeline a pass.
 pub(crate) struct TracePipelines {
     pub(crate) surface: ComputePipeline,
-    pub(crate) light: ComputePipeline,
-    pub(crate) reference: ComputePipeline,
+    pub(crate) reservoir: ComputePipeline,
+    pub(crate) light: Program,
+    pub(crate) reference: Program,
     pub(crate) filter: ComputePipeline,
     pub(crate) sum: ComputePipeline,
     pub(crate) exposure: ComputePipeline,
@@ -19,7 +23,10 @@ pub(crate) struct TracePipelines {
 }
 
 impl TracePipelines {
-    pub(crate) fn new(gpu: &Gpu, table: &BindlessTable) -> Result<Self, GpuError> {
+    /// # Errors
+    /// If the device lacks the backend.
+    pub(crate) fn new(gpu: &Gpu, table: &BindlessTable, backend: Backend) -> Result<Self, GpuError> {
+        backend.require(gpu)?;
         let sets = [table.layout()];
         let pipeline = |name, spirv| {
             gpu.create_compute_pipeline(&ComputeDesc {
@@ -31,10 +38,14 @@ impl TracePipelines {
                 push_constant_bytes: size_of::<ViewPush>() as u32,
             })
         };
+        let program = |name, compute, generation| {
+            Program::new(gpu, table, backend, &ProgramDesc { name, compute, generation })
+        };
         Ok(Self {
             surface: pipeline("surface", shaders::SURFACE_COMP)?,
-            light: pipeline("light", shaders::LIGHT_COMP)?,
-            reference: pipeline("reference", shaders::REFERENCE_COMP)?,
+            reservoir: pipeline("reservoir", shaders::RESERVOIR_COMP)?,
+            light: program("light", shaders::LIGHT_COMP, shaders::LIGHT_RGEN)?,
+            reference: program("reference", shaders::REFERENCE_COMP, shaders::REFERENCE_RGEN)?,
             filter: pipeline("filter", shaders::FILTER_COMP)?,
             sum: pipeline("exposure sums", shaders::EXPOSURE_SUM_COMP)?,
             exposure: pipeline("exposure", shaders::EXPOSURE_COMP)?,

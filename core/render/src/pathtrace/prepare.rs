@@ -6,11 +6,12 @@ use afterglow_scene::Camera;
 use bytemuck::Zeroable;
 use glam::Vec3;
 
+use super::backend::Backend;
 use super::buffers::{ViewBuffers, sum_count};
 use super::change::{ChangeHasher, History, changes_textures};
 use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
-use super::meshes::MeshCopy;
+use super::lights::LightList;
 use super::options::Mode;
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
@@ -40,7 +41,11 @@ pub(crate) struct PreparedTrace {
     /// What each draw of the frame leaves in the visibility buffer.
     pub(crate) marks: Vec<DrawMark>,
     pub(crate) views: Vec<PreparedView>,
-    pub(crate) copies: Vec<MeshCopy>,
+    /// Which buffers are this frame's, and which the one's before.
+    pub(crate) parity: usize,
+    pub(crate) backend: Backend,
+    /// The world must be brought to the device.
+    pub(crate) has_builds: bool,
     pub(crate) counts: TraceCounts,
 }
 
@@ -76,37 +81,54 @@ pub(crate) fn prepare(
     camera: &Camera,
     size: [u32; 2],
 ) -> Result<PreparedTrace, GpuError> {
-    tracer.world.begin_frame();
-    let origin = camera.view.inverse().w_axis.truncate();
+    tracer.world.begin_frame()?;
+    // In f32, so that differences to what is near it are exact.
+    let origin = camera.view.inverse().w_axis.truncate().as_vec3().as_dvec3();
     let geometry = &mut tracer.world.geometry;
     let mut surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
     tracer.has_camera_rays = tracing.is_staged && tracer.mode == Mode::Reference;
     if let Some(buffers) = &mut tracer.buffers {
         buffers.reserve_movers(input.gpu, surfaces.records.len())?;
+        if tracer.options.keeps_lights && tracer.mode == Mode::Pathtrace {
+            buffers.reserve_reservoirs(input.gpu)?;
+        }
         if tracer.has_camera_rays || tracer.options.keeps_radiance {
             buffers.reserve_radiance(input.gpu)?;
         }
     }
     surfaces.list_lights(&tracing.scene.lights, origin, &tracer.options);
+    tracer.kept.begin(&surfaces.lights);
     let world = tracer.world.build(input.frame, &surfaces.traced, &surfaces.lights, origin, input.arena)?;
+    for (traced, reach) in surfaces.traced.iter().zip(&tracer.world.reaches) {
+        surfaces.records[traced.surface as usize].reach = *reach;
+    }
     let common = tracer.common(&mut input, tracing, camera, &surfaces, &world, size)?;
     let mut views = Vec::with_capacity(tracing.arrangement.views.len());
     let mut finds_exposure = true;
+    let parity = tracer.kept.parity();
+    let mut keeps_lights = false;
     for (index, operations) in tracing.arrangement.views.iter().enumerate() {
         let kinds = surfaces.kinds_within(operations);
-        let (needs, record) = tracer.view(index, &kinds, &common, &mut finds_exposure);
+        let (mut needs, mut record) = tracer.view(index, &kinds, &common, &mut finds_exposure);
+        needs.keeps_lights =
+            tracer.keep_lights(&surfaces.lights, tracing.arrangement.views.len(), &mut record);
+        needs.has_lights_before = record.reservoirs_before != 0;
+        keeps_lights = needs.keeps_lights.is_ok();
         let record = input.arena.push(bytemuck::bytes_of(&record))?.address;
         views.push(PreparedView { record, needs });
     }
+    tracer.kept.end(camera, origin, &surfaces.lights, keeps_lights);
     Ok(PreparedTrace {
         marks: surfaces.marks,
         views,
-        copies: tracer.world.meshes().copies.clone(),
+        parity,
+        backend: tracer.options.backend,
+        has_builds: tracer.world.structures().has_work(),
         counts: TraceCounts {
             traced_draws: surfaces.seen,
             unseen: surfaces.traced.len() - surfaces.seen,
             instances: world.instances as usize,
-            built_triangles: tracer.world.meshes().built,
+            built_triangles: tracer.world.structures().built(),
             lights: common.record.light_count as usize,
             samples: tracer.history.first().map_or(0, |history| history.samples() as usize),
         },
@@ -125,6 +147,9 @@ impl Tracer {
     ) -> Result<Common, GpuError> {
         let (scene, options) = (&tracing.scene, &self.options);
         let estimator = Estimator::of(self.mode, options);
+        let origin = camera.view.inverse().w_axis.truncate();
+        let mut record = ViewRecord::zeroed();
+        self.kept.write(&mut record, origin);
         let mut hasher =
             ChangeHasher::new(size, camera, scene, &surfaces.lights.sources, &estimator, options);
         for traced in &surfaces.traced {
@@ -141,7 +166,7 @@ impl Tracer {
                 members: world.members,
                 lights: address(input.arena.push_table(&surfaces.lights.sources))?,
                 light_nodes: address(input.arena.push_table(&surfaces.lights.nodes))?,
-                world: world.tlas,
+                world: world.top_level,
                 width: size[0],
                 height: size[1],
                 far_count: surfaces.lights.far_count as u32,
@@ -167,7 +192,7 @@ impl Tracer {
                 pixel_origin: rays.origin,
                 pixel_right: rays.right,
                 pixel_down: rays.down,
-                ..ViewRecord::zeroed()
+                ..record
             },
             hash: hasher.finish(),
             may_continue: estimator.accumulates && !changes_textures(input.frame),
@@ -190,7 +215,8 @@ impl Tracer {
         }
         let samples = common.record.samples;
         let may_continue = common.may_continue && !is_idle;
-        let accumulated = self.history[view].advance(common.hash, may_continue, samples);
+        let accumulated =
+            self.history[view].advance(common.hash, may_continue, samples, common.record.frame_number);
         let (filter_steps, filter_reason) = self.filter_steps(accumulated + samples);
         let has = |kind: SurfaceKind| kinds.contains(&kind);
         // What is relit is as bright as the bake.
@@ -202,6 +228,8 @@ impl Tracer {
         };
         let needs = ViewNeeds {
             is_reference: self.has_camera_rays,
+            keeps_lights: Err(""),
+            has_lights_before: false,
             is_idle,
             filter_steps,
             filter_reason,
@@ -209,11 +237,34 @@ impl Tracer {
             exposure,
             has_movers: has(SurfaceKind::BakedMover),
         };
-        let mut record = ViewRecord { accumulated, ..common.record };
+        // Other numbers in each frame, but for those that go on with the same sequence.
+        let seed = common.record.seed ^ self.history[view].begun().wrapping_mul(0x9e37_79b9);
+        let mut record = ViewRecord { accumulated, seed, ..common.record };
         if let Some(buffers) = &self.buffers {
-            name_buffers(&mut record, buffers, view, filter_steps);
+            name_buffers(&mut record, buffers, self.kept.parity(), view, filter_steps);
         }
         (needs, record)
+    }
+
+    /// Whether pixels of a view keep lights; if so its record says where.
+    fn keep_lights(
+        &self,
+        lights: &LightList,
+        views: usize,
+        record: &mut ViewRecord,
+    ) -> Result<(), &'static str> {
+        let reservoirs = self.buffers.as_ref().and_then(|buffers| buffers.reservoirs.as_ref());
+        let reservoirs = reservoirs.filter(|_| self.options.keeps_lights && self.mode == Mode::Pathtrace);
+        let [now, before] = match reservoirs {
+            None => return Err("not asked for"),
+            Some(both) => [self.kept.parity(), 1 - self.kept.parity()].map(|of| both[of].buffer.address()),
+        };
+        self.kept.serves(lights, record.asked, views, record.accumulated)?;
+        record.reservoirs = now;
+        if self.kept.has_before() {
+            record.reservoirs_before = before;
+        }
+        Ok(())
     }
 
     /// Steps of the filter for so many samples, and why there are no more.
@@ -227,8 +278,15 @@ impl Tracer {
 }
 
 /// Tells a record where the window's buffers are.
-fn name_buffers(record: &mut ViewRecord, buffers: &ViewBuffers, view: usize, filter_steps: u32) {
-    record.surfaces = buffers.surfaces.buffer.address();
+fn name_buffers(
+    record: &mut ViewRecord,
+    buffers: &ViewBuffers,
+    parity: usize,
+    view: usize,
+    filter_steps: u32,
+) {
+    record.surfaces = buffers.surfaces[parity].buffer.address();
+    record.surfaces_before = buffers.surfaces[1 - parity].buffer.address();
     record.light = buffers.light.get(view).map_or(0, |light| light.buffer.address());
     record.indirect = buffers.indirect[filter_steps as usize % 2].buffer.address();
     record.sums = buffers.sums.buffer.address();

@@ -8,13 +8,14 @@ use super::buffers::{ViewBuffers, sum_groups};
 use super::pipelines::{TracePipelines, pixel_groups, run};
 use super::prepare::PreparedTrace;
 use super::schedule::TraceWork;
-use crate::passes::build;
+use super::structures::Structures;
 
 /// What recording needs.
 pub(crate) struct TraceContext<'a> {
     pub(crate) commands: &'a Commands<'a>,
     pub(crate) table: &'a BindlessTable,
     pub(crate) pipelines: &'a TracePipelines,
+    pub(crate) structures: &'a Structures,
     pub(crate) buffers: &'a ViewBuffers,
     pub(crate) prepared: &'a PreparedTrace,
 }
@@ -27,7 +28,7 @@ impl TraceContext<'_> {
         let indirect = |index: usize| self.buffers.indirect[index].buffer.address();
         let (pipeline, push, groups) = match work {
             TraceWork::Build => {
-                build::record(self.commands, &self.prepared.copies);
+                self.structures.record(self.commands);
                 return;
             }
             TraceWork::ClearSums => {
@@ -38,11 +39,16 @@ impl TraceContext<'_> {
                 self.commands.fill_buffer(&self.buffers.counters.buffer, 0);
                 return;
             }
-            TraceWork::Reference(view) => (&pipelines.reference, push(view), groups),
+            TraceWork::Reference(view) => {
+                pipelines.reference.run(self.commands, self.table, &push(view), self.buffers.size);
+                return;
+            }
             TraceWork::Surface(view) => (&pipelines.surface, push(view), groups),
+            TraceWork::Reservoir(view) => (&pipelines.reservoir, push(view), groups),
             TraceWork::Light(view) => {
                 let push = ViewPush { target: indirect(0), ..push(view) };
-                (&pipelines.light, push, groups)
+                pipelines.light.run(self.commands, self.table, &push, self.buffers.size);
+                return;
             }
             TraceWork::Filter(view, step) => {
                 let from = step as usize % 2;

@@ -2,8 +2,9 @@
 
 use afterglow_frame_graph::{GraphBuilder, ResourceId};
 
+use super::backend::Backend;
 use super::buffers::ViewBuffers;
-use crate::passes::{build, composite, exposure, filter, light, reference, surface};
+use crate::passes::{build, composite, exposure, filter, light, reference, reservoir, surface};
 use crate::schedule::Resources;
 
 /// What a pass of a view records; the number is the view's.
@@ -14,6 +15,8 @@ pub(crate) enum TraceWork {
     /// Radiance by the camera's own rays.
     Reference(usize),
     Surface(usize),
+    /// Which light of many each pixel keeps.
+    Reservoir(usize),
     Light(usize),
     /// A step of the filter, of so many.
     Filter(usize, u32),
@@ -28,6 +31,10 @@ pub(crate) enum TraceWork {
 pub(crate) struct ViewNeeds {
     /// The camera's own rays see it: nothing else is needed of it.
     pub(crate) is_reference: bool,
+    /// Whether pixels keep lights from frame to frame, and why not.
+    pub(crate) keeps_lights: Result<(), &'static str>,
+    /// The frame before has left lights.
+    pub(crate) has_lights_before: bool,
     /// Nothing in the picture would change by light.
     pub(crate) is_idle: bool,
     /// Steps of the filter.
@@ -58,10 +65,15 @@ pub(crate) const IDLE_REASON: &str = "nothing moves among surfaces with baked li
 /// The graph's resources that belong to views.
 #[derive(Debug, Clone)]
 pub(crate) struct ViewResources {
+    /// What shoots rays.
+    pub(crate) backend: Backend,
     pub(crate) visibility: ResourceId,
     pub(crate) albedo: ResourceId,
     pub(crate) world: ResourceId,
     pub(crate) surfaces: ResourceId,
+    pub(crate) surfaces_before: ResourceId,
+    /// This frame's and those of the one before.
+    pub(crate) reservoirs: Option<[ResourceId; 2]>,
     pub(crate) light: Vec<ResourceId>,
     pub(crate) indirect: [ResourceId; 2],
     pub(crate) sums: ResourceId,
@@ -77,6 +89,8 @@ impl ViewResources {
         graph: &mut GraphBuilder,
         buffers: &ViewBuffers,
         world: afterglow_frame_graph::ResourceState,
+        backend: Backend,
+        parity: usize,
     ) -> Self {
         use afterglow_frame_graph::{Format, ImageDesc, ResourceDesc};
         let visibility = &buffers.visibility;
@@ -90,10 +104,15 @@ impl ViewResources {
             graph.import(name, ResourceDesc::Buffer { bytes }, tracked.state)
         };
         let resources = Self {
+            backend,
             visibility,
             albedo,
             world,
-            surfaces: import("surfaces", &buffers.surfaces),
+            surfaces: import("surfaces", &buffers.surfaces[parity]),
+            surfaces_before: import("surfaces before", &buffers.surfaces[1 - parity]),
+            reservoirs: buffers.reservoirs.as_ref().map(|both| {
+                [import("reservoirs", &both[parity]), import("reservoirs before", &both[1 - parity])]
+            }),
             light: buffers.light.iter().map(|light| import("light", light)).collect(),
             indirect: [import("indirect", &buffers.indirect[0]), import("indirect", &buffers.indirect[1])],
             sums: import("exposure sums", &buffers.sums),
@@ -105,6 +124,10 @@ impl ViewResources {
         graph.output(resources.world);
         graph.output(resources.exposure);
         graph.output(resources.counters);
+        graph.output(resources.surfaces);
+        for resource in resources.reservoirs.into_iter().flatten() {
+            graph.output(resource);
+        }
         if let Some(radiance) = resources.radiance {
             graph.output(radiance);
         }
@@ -123,11 +146,11 @@ pub(crate) fn declare_view(
     views: &ViewResources,
     view: usize,
     needs: &ViewNeeds,
-    has_new_meshes: bool,
+    has_builds: bool,
 ) {
     if view == 0 {
         work.push(TraceWork::Build);
-        build::declare(graph, views, has_new_meshes);
+        build::declare(graph, views, has_builds);
         work.push(TraceWork::ClearCounters);
         light::declare_clear(graph, views);
     }
@@ -140,6 +163,8 @@ pub(crate) fn declare_view(
     }
     work.push(TraceWork::Surface(view));
     surface::declare(graph, frame, views, needs);
+    work.push(TraceWork::Reservoir(view));
+    reservoir::declare(graph, frame, views, needs);
     work.push(TraceWork::Light(view));
     light::declare(graph, frame, views, view, needs);
     for step in 0..needs.filter_steps {

@@ -5,14 +5,16 @@ use std::sync::Arc;
 use afterglow_frame_graph::{CompiledGraph, ResourceState};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
-use afterglow_scene::{Recovery, Scene};
+use afterglow_scene::{Camera, Recovery, Scene};
 
 use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
 use super::change::History;
+use super::kept::KeptLights;
 use super::options::{Mode, PathtraceOptions};
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
+use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewResources};
 use super::unseen;
 use super::world::WorldBuilder;
@@ -53,8 +55,13 @@ pub(crate) struct Tracer {
     pub(crate) buffers: Option<ViewBuffers>,
     /// Of each view.
     pub(crate) history: Vec<History>,
+    pub(crate) kept: KeptLights,
     /// The last frame was seen by rays of the camera.
     pub(crate) has_camera_rays: bool,
+    /// A line has said that some frames cannot be traced.
+    has_said_blind: bool,
+    /// The last frame was traced.
+    pub(crate) is_tracing: bool,
     /// An earlier frame has found an exposure.
     pub(crate) has_exposure: bool,
     /// What was handed over of the frame that is going on.
@@ -81,44 +88,68 @@ impl Tracer {
             tracing::warn!("the device cannot number triangles: frames are rasterized");
             return Ok(None);
         }
-        let pipelines = Arc::new(TracePipelines::new(gpu, table)?);
-        Ok(Some(Self::with(gpu, mode, options, pipelines)))
+        let pipelines = Arc::new(TracePipelines::new(gpu, table, options.backend)?);
+        Self::with(gpu, mode, options, pipelines).map(Some)
     }
 
     /// Traces otherwise from now on.
-    pub(crate) fn set_options(&mut self, mode: Mode, options: &PathtraceOptions) {
+    ///
+    /// # Errors
+    /// If the device lacks another backend that is asked for: nothing has changed then.
+    pub(crate) fn set_options(
+        &mut self,
+        gpu: &Gpu,
+        table: &BindlessTable,
+        mode: Mode,
+        options: &PathtraceOptions,
+    ) -> Result<(), GpuError> {
+        if options.backend != self.options.backend {
+            let world = WorldBuilder::new(gpu, options.backend)?;
+            self.pipelines = Arc::new(TracePipelines::new(gpu, table, options.backend)?);
+            self.world = world;
+        }
         self.mode = mode;
         self.options = options.clone();
         self.recovery.set_memory(options.memory_bytes);
+        Ok(())
     }
 
     /// For another window of the same renderer.
-    pub(crate) fn beside(&self, gpu: &Gpu) -> Self {
+    pub(crate) fn beside(&self, gpu: &Gpu) -> Result<Self, GpuError> {
         Self::with(gpu, self.mode, self.options.clone(), self.pipelines.clone())
     }
 
-    fn with(gpu: &Gpu, mode: Mode, options: PathtraceOptions, pipelines: Arc<TracePipelines>) -> Self {
+    fn with(
+        gpu: &Gpu,
+        mode: Mode,
+        options: PathtraceOptions,
+        pipelines: Arc<TracePipelines>,
+    ) -> Result<Self, GpuError> {
+        let world = WorldBuilder::new(gpu, options.backend)?;
         let mut recovery = Recovery::with_profile(options.profile.clone())
             .with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);
         if let Some(cache) = &options.cache {
             recovery.set_cache(cache);
         }
-        Self {
+        Ok(Self {
             mode,
             options,
             recovery,
-            world: WorldBuilder::new(gpu),
+            world,
             world_state: ResourceState::SETTLED,
             pipelines,
             buffers: None,
             history: Vec::new(),
+            kept: KeptLights::default(),
             has_camera_rays: false,
+            has_said_blind: false,
+            is_tracing: false,
             has_exposure: false,
             parts: Parts::None,
             has_begun_unseen: false,
             before: None,
-        }
+        })
     }
 
     /// Judges a frame, and puts it in order if it has a world.
@@ -132,13 +163,25 @@ impl Tracer {
         self.put_in_order(frame, scene, true)
     }
 
+    /// Whether a camera shows the world; says so once if it does not. Rays of its own need a perspective.
+    fn can_see(&mut self, camera: &Camera, is_staged: bool) -> bool {
+        let has_rays = is_staged && self.mode == Mode::Reference;
+        let is_undone = camera.projection.as_dmat4().inverse().is_finite();
+        let can_see = is_undone && (!has_rays || PixelRays::new(camera, [1, 1]).are_apart());
+        if !can_see && !std::mem::replace(&mut self.has_said_blind, true) {
+            tracing::warn!("no rays for a projection: frames with it are rasterized");
+        }
+        can_see
+    }
+
     fn put_in_order(&mut self, frame: &mut Frame, mut scene: Scene, is_staged: bool) -> Understood {
         if scene.cut {
             self.forget();
             self.has_exposure = false;
         }
         let report = SceneReport::of(&scene);
-        let arrangement = scene.camera.map(|_| arrange(frame, &scene));
+        let camera = scene.camera.filter(|camera| self.can_see(camera, is_staged));
+        let arrangement = camera.map(|_| arrange(frame, &scene));
         let arrangement = arrangement.filter(|arrangement| !arrangement.views.is_empty());
         let tracing = arrangement.map(|mut arrangement| {
             arrangement.apply(frame, &mut scene);
@@ -146,6 +189,7 @@ impl Tracer {
             unseen::append(frame, &mut scene, &mut arrangement);
             Tracing { scene, arrangement, rasterized, is_staged }
         });
+        self.is_tracing = tracing.is_some();
         Understood { report, tracing }
     }
 
@@ -161,7 +205,7 @@ impl Tracer {
             if let Some(old) = self.buffers.take() {
                 old.release(table);
             }
-            self.history.iter_mut().for_each(History::forget);
+            self.forget();
             self.has_exposure = false;
             self.buffers = Some(ViewBuffers::new(gpu, table, target)?);
         }
@@ -185,7 +229,13 @@ impl Tracer {
         if let Some(buffers) = &mut self.buffers {
             keep(&mut buffers.visibility.state, resources.visibility);
             keep(&mut buffers.albedo.state, resources.albedo);
-            keep(&mut buffers.surfaces.state, resources.surfaces);
+            let parity = prepared.parity;
+            keep(&mut buffers.surfaces[parity].state, resources.surfaces);
+            keep(&mut buffers.surfaces[1 - parity].state, resources.surfaces_before);
+            if let (Some(both), Some([now, before])) = (&mut buffers.reservoirs, resources.reservoirs) {
+                keep(&mut both[parity].state, now);
+                keep(&mut both[1 - parity].state, before);
+            }
             keep(&mut buffers.sums.state, resources.sums);
             keep(&mut buffers.movers.state, resources.movers);
             keep(&mut buffers.counters.state, resources.counters);
@@ -206,6 +256,7 @@ impl Tracer {
 
     /// After a frame that was not recorded: what its passes would have left is not there.
     pub(crate) fn forget(&mut self) {
+        self.kept.forget();
         self.history.iter_mut().for_each(History::forget);
     }
 }

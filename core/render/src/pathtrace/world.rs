@@ -3,18 +3,18 @@
 //! A draw of a retained range is a mesh of its own, built once; so is a block of remembered ones. Other draws change, or are sent anew with every
 //! frame: those that share a matrix are one mesh, built again when any of them has changed.
 
-use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
-use afterglow_bvh::{Instance, TriangleAttributes, build_tlas};
 use afterglow_gl::frame::{Draw, Frame, VertexSource};
 use afterglow_gpu::{Gpu, GpuError};
 use afterglow_records::{MASK_STATIC, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MeshMember};
-use glam::{DVec3, Mat4};
+use glam::{DVec3, Mat4, Vec3};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64_with_seed};
 
+use super::anchors::{Anchor, Reach};
+use super::backend::Backend;
 use super::geometry::{GeometryReader, Triangles};
 use super::lights::{Lamps, LightList};
-use super::meshes::Meshes;
+use super::structures::{Member, MeshInput, Placed, Shapes, Structures};
 use crate::uploads::UploadArena;
 
 /// Triangles of a member, and members of a mesh, that a hit's primitive can name.
@@ -42,7 +42,7 @@ pub(crate) struct Traced<'a> {
 /// The top level and what its hits are numbered by, on the device.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct World {
-    pub(crate) tlas: u64,
+    pub(crate) top_level: u64,
     pub(crate) members: u64,
     pub(crate) instances: u32,
     /// The longest side of its box.
@@ -57,6 +57,7 @@ struct Group {
     /// Numbers among the traced draws.
     draws: Vec<usize>,
     members: usize,
+    reach: Reach,
 }
 
 /// What groups are found by: the matrix's bits, the mask, the block.
@@ -64,22 +65,30 @@ type GroupKey = ([u32; 16], u8, Option<u32>);
 
 /// Keeps meshes from frame to frame.
 pub(crate) struct WorldBuilder {
-    meshes: Meshes,
+    structures: Structures,
     pub(crate) geometry: GeometryReader,
+    /// Of each traced draw of the frame that was built: `SurfaceDraw::reach`.
+    pub(crate) reaches: Vec<f32>,
 }
 
 impl WorldBuilder {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self { meshes: Meshes::new(gpu), geometry: GeometryReader::default() }
+    /// # Errors
+    /// If the device lacks the backend.
+    pub(crate) fn new(gpu: &Gpu, backend: Backend) -> Result<Self, GpuError> {
+        Ok(Self {
+            structures: Structures::new(gpu, backend)?,
+            geometry: GeometryReader::default(),
+            reaches: Vec::new(),
+        })
     }
 
-    pub(crate) fn begin_frame(&mut self) {
-        self.meshes.begin_frame();
+    pub(crate) fn begin_frame(&mut self) -> Result<(), GpuError> {
         self.geometry.begin_frame();
+        self.structures.begin_frame()
     }
 
-    pub(crate) fn meshes(&self) -> &Meshes {
-        &self.meshes
+    pub(crate) fn structures(&self) -> &Structures {
+        &self.structures
     }
 
     /// Builds the world as seen from `origin`, in world space.
@@ -91,72 +100,44 @@ impl WorldBuilder {
         origin: DVec3,
         arena: &mut UploadArena,
     ) -> Result<World, GpuError> {
-        let mut members = Vec::new();
-        let mut instances = Vec::new();
-        for group in groups(traced) {
-            let content = content_of(&group, traced);
-            if !self.meshes.has(content) {
-                self.build_mesh(frame, &group, traced, content, arena)?;
-            }
-            let Some(mesh) = self.meshes.get(content) else { continue };
-            instances.push(Instance {
-                object_to_world: relative(&group.model, origin),
-                blas: mesh.address,
-                bounds: mesh.bounds,
-                id: members.len() as u32,
-                mask: group.mask,
-                flags: 0,
-            });
-            members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
+        let groups: Vec<_> =
+            groups(traced).into_iter().map(|group| (content_of(&group, traced), group)).collect();
+        // What is there is taken first: the rest may be made of what is not.
+        for (content, _) in &groups {
+            self.structures.take(*content);
         }
-        if let Some(instance) = self.lamps(&lights.lamps, origin, members.len(), arena)? {
-            instances.push(instance);
+        let mut members = Vec::new();
+        let mut placed = Vec::new();
+        self.reaches.clear();
+        self.reaches.resize(traced.len(), f32::INFINITY);
+        for (content, group) in &groups {
+            let anchor = Anchor::of(group.reach);
+            group.draws.iter().for_each(|&draw| self.reaches[draw] = anchor.reach);
+            if !self.structures.has(*content) {
+                self.build_mesh(frame, group, traced, *content, arena)?;
+            }
+            if self.structures.take(*content) {
+                placed.push(Placed {
+                    content: *content,
+                    object_to_world: anchored(&group.model, anchor.place, origin),
+                    id: members.len() as u32,
+                    mask: group.mask,
+                });
+                members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
+            }
+        }
+        if let Some(lamps) = self.lamps(&lights.lamps, origin, members.len(), arena)? {
+            placed.push(lamps);
             let first = lights.lamps.first_light as u32;
             members.push(MeshMember { draw: MEMBER_OF_LIGHTS | first, first_triangle: 0 });
         }
-        let tlas = match build_tlas(&instances) {
-            Ok(tlas) => tlas,
-            Err(error) => {
-                tracing::warn!("rays meet nothing: {error}");
-                members.clear();
-                build_tlas(&[]).unwrap_or_else(|_| unreachable!("no instances are not too many"))
-            }
-        };
+        let top = self.structures.top_level(&placed, arena)?;
         Ok(World {
-            tlas: self.meshes.upload_once(&tlas.words, arena)?,
+            top_level: top.address,
             members: arena.push_table(&members)?.address,
-            instances: tlas.instance_count,
-            extent: match tlas.bounds.is_empty() {
-                true => 0.0,
-                false => (tlas.bounds.max - tlas.bounds.min).max_element(),
-            },
+            instances: top.instances,
+            extent: top.extent,
         })
-    }
-
-    /// The lights that are spheres, as one instance; `member` is the number of what its hits name.
-    fn lamps(
-        &mut self,
-        lamps: &Lamps,
-        origin: DVec3,
-        member: usize,
-        arena: &mut UploadArena,
-    ) -> Result<Option<Instance>, GpuError> {
-        if lamps.spheres.is_empty() {
-            return Ok(None);
-        }
-        let content = xxh3_64_with_seed(bytemuck::cast_slice(&lamps.spheres), LAMPS);
-        if !self.meshes.has(content) {
-            self.meshes.build_spheres(content, &lamps.spheres, arena)?;
-        }
-        let mesh = self.meshes.get(content);
-        Ok(mesh.map(|mesh| Instance {
-            object_to_world: relative(&Mat4::IDENTITY, origin - lamps.anchor),
-            blas: mesh.address,
-            bounds: mesh.bounds,
-            id: member as u32,
-            mask: MASK_STATIC as u8,
-            flags: 0,
-        }))
     }
 
     fn build_mesh(
@@ -168,8 +149,7 @@ impl WorldBuilder {
         arena: &mut UploadArena,
     ) -> Result<(), GpuError> {
         let mut corners = Vec::new();
-        let mut attributes = Vec::new();
-        let mut first_member = 0;
+        let mut members = Vec::new();
         for &index in &group.draws {
             let traced = &traced[index];
             let mut range = traced.triangles.corners.clone();
@@ -177,15 +157,38 @@ impl WorldBuilder {
                 range = self.geometry.corners(frame, traced.draw);
             }
             corners.extend_from_slice(&self.geometry.corners[range]);
-            let flags = if traced.is_alpha_tested { FLAG_ALPHA_TESTED } else { 0 };
-            attributes.extend((0..traced.triangles.count).map(|triangle| TriangleAttributes {
-                primitive: ((first_member + triangle / MOST_TRIANGLES) << MEMBER_SHIFT)
-                    | (triangle % MOST_TRIANGLES),
-                flags,
+            members.extend(members_of(traced).map(|member| Member {
+                triangles: MOST_TRIANGLES.min(traced.triangles.count - member.first_triangle),
+                is_alpha_tested: traced.is_alpha_tested,
             }));
-            first_member += member_count(traced) as u32;
         }
-        self.meshes.build(content, &corners, &attributes, group.is_lasting, arena)
+        Anchor::of(group.reach).subtract_from(&mut corners);
+        let shapes = Shapes::Triangles { corners: &corners, members: &members };
+        self.structures.build(content, &MeshInput { shapes, is_lasting: group.is_lasting }, arena)
+    }
+
+    /// The lights that are spheres, as one instance; `member` is the number of what its hits name.
+    fn lamps(
+        &mut self,
+        lamps: &Lamps,
+        origin: DVec3,
+        member: usize,
+        arena: &mut UploadArena,
+    ) -> Result<Option<Placed>, GpuError> {
+        if lamps.spheres.is_empty() || lamps.spheres.len() > MOST_TRIANGLES as usize {
+            return Ok(None);
+        }
+        let content = xxh3_64_with_seed(bytemuck::cast_slice(&lamps.spheres), LAMPS);
+        if !self.structures.has(content) {
+            let input = MeshInput { shapes: Shapes::Spheres(&lamps.spheres), is_lasting: true };
+            self.structures.build(content, &input, arena)?;
+        }
+        Ok(self.structures.take(content).then(|| Placed {
+            content,
+            object_to_world: relative(&Mat4::IDENTITY, origin - lamps.anchor),
+            id: member as u32,
+            mask: MASK_STATIC as u8,
+        }))
     }
 }
 
@@ -196,6 +199,17 @@ pub(crate) fn relative(model: &Mat4, origin: DVec3) -> [[f32; 4]; 3] {
         let linear = model.row(row).truncate();
         [linear.x, linear.y, linear.z, translation[row] as f32]
     })
+}
+
+/// The same for corners that are relative to a place in object space.
+fn anchored(model: &Mat4, place: Vec3, origin: DVec3) -> [[f32; 4]; 3] {
+    if place == Vec3::ZERO {
+        return relative(model, origin);
+    }
+    let translation = model.as_dmat4().transform_point3(place.as_dvec3()) - origin;
+    let mut rows = relative(model, origin);
+    rows.iter_mut().zip(translation.to_array()).for_each(|(row, along)| row[3] = along as f32);
+    rows
 }
 
 fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
@@ -212,6 +226,7 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
             is_lasting: matches!(traced.draw.source, VertexSource::Retained { .. }),
             draws: vec![index],
             members,
+            reach: traced.triangles.reach,
         };
         if new.is_lasting && traced.block.is_none() {
             groups.push(new);
@@ -222,6 +237,7 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
             Some(group) if group.members + members <= MOST_MEMBERS => {
                 group.draws.push(index);
                 group.members += members;
+                group.reach = group.reach.union(traced.triangles.reach);
             }
             _ => {
                 open.insert(key, groups.len());
@@ -267,7 +283,7 @@ mod tests {
     }
 
     fn world(builder: &mut WorldBuilder, frame: &Frame) -> (World, usize) {
-        builder.begin_frame();
+        builder.begin_frame().unwrap();
         let mut arena = UploadArena::new(&gpu());
         let traced: Vec<_> = frame
             .draws()
@@ -286,12 +302,12 @@ mod tests {
             })
             .collect();
         let world = builder.build(frame, &traced, &LightList::default(), DVec3::ZERO, &mut arena).unwrap();
-        (world, builder.meshes().built)
+        (world, builder.structures().built())
     }
 
     #[test]
     fn draws_of_one_matrix_are_one_mesh_that_is_built_when_it_changes() {
-        let mut builder = WorldBuilder::new(&gpu());
+        let mut builder = WorldBuilder::new(&gpu(), Backend::Software).unwrap();
         let (first, built) = world(&mut builder, &frame(0.25));
         assert_eq!((first.instances, built), (2, 6));
         assert_eq!(world(&mut builder, &frame(0.25)).1, 0);

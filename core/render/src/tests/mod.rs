@@ -1,5 +1,6 @@
 //! Frames built by hand, and what they must look like.
 
+mod backends;
 mod clears;
 mod fragments;
 mod hints;

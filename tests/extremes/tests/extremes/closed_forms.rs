@@ -81,6 +81,16 @@ fn element_under_a_square_light() {
     }
 }
 
+/// Under a ceiling of light that is far larger than high: it must not hide itself.
+#[test]
+fn element_under_a_ceiling() {
+    for half in [1e2, 1e4, 1e6] {
+        let light = quad(Vec3::new(-half, 1.0, -half), Vec3::X * 2.0 * half, Vec3::Z * 2.0 * half);
+        let world = World::new(8).with(floor(1.0), lambert(0.5)).with(light, shining(3.0, 0.0));
+        shown(world, DVec3::new(1.2, 0.9, 0.0), 512).assert(1.5, 1e-3, &format!("half side {half}"));
+    }
+}
+
 /// A light without extent is the same in every sample.
 #[test]
 fn directional_light_on_a_diffuse_floor() {

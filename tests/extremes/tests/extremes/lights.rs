@@ -51,7 +51,7 @@ fn program_lights_on_a_surface() {
         picture.assert_sound("a light on a surface");
         picture
     };
-    for (height, brought) in [(0.0, 0.0), (1e-6, f64::NAN), (1e-3, 1.0), (10.0, 1.0)] {
+    for (height, brought) in [(0.0, 0.0), (1e-6, f64::NAN), (0.1, 1.0), (10.0, 1.0)] {
         let shown = render(Mode::Reference, &[gl_light(Vec3::Y * height, Vec3::X)]).whole();
         assert!(brought.is_nan() || shown.agrees(brought, 1e-2), "{height} above: {shown:?}");
         let infinite = [gl_light(Vec3::Y * height, Vec3::Z), gl_light(Vec3::Y * height, Vec3::ZERO)];

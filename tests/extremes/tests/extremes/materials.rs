@@ -123,7 +123,7 @@ fn limits_tell_what_they_remove() {
     let bright = quad(Vec3::new(-0.05, 0.98, -0.05), Vec3::X * 0.1, Vec3::Z * 0.1);
     let world = World::new(32)
         .with(cube(Vec3::ZERO, -1.0), lambert(1.0))
-        .with(bright, shining(500.0, 0.0))
+        .with(bright, shining(5000.0, 0.0))
         .seen_from(DVec3::new(0.0, -0.2, 0.9), DVec3::new(0.0, -0.6, 0.0), 1.0);
     let picture = |most| {
         pathtrace(

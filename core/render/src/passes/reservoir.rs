@@ -1,0 +1,20 @@
+//! Which light of many each pixel keeps, before rays are sent.
+
+use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
+
+use crate::pathtrace::schedule::{ViewNeeds, ViewResources};
+use crate::schedule::Resources;
+
+pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewResources, needs: &ViewNeeds) {
+    let mut pass = graph.pass("reservoir", PassKind::Compute);
+    pass.read(views.surfaces, Access::StorageReadCompute)
+        .read(frame.geometry, Access::StorageReadCompute)
+        .when(needs.keeps_lights.is_ok(), needs.keeps_lights.err().unwrap_or_default());
+    if let Some([now, before]) = views.reservoirs {
+        pass.write(now, Access::StorageWriteCompute);
+        if needs.has_lights_before {
+            pass.read(views.surfaces_before, Access::StorageReadCompute)
+                .read(before, Access::StorageReadCompute);
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! A pass that shoots rays, as a compute pipeline or as a ray-tracing pipeline.
+
+use afterglow_gpu::{
+    BindlessTable, Commands, ComputeDesc, ComputePipeline, Gpu, GpuError, HitGroup, RayPipeline,
+    RayPipelineDesc,
+};
+use afterglow_records::ViewPush;
+use afterglow_shaders as shaders;
+
+use super::backend::Backend;
+use super::pipelines::{pixel_groups, run};
+
+/// The two forms of one source: see `shaders/include/trace.glsl` for how a pass gets its second.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ProgramDesc<'a> {
+    pub(crate) name: &'a str,
+    /// `PASS.comp`.
+    pub(crate) compute: &'a [u32],
+    /// `PASS.rgen`.
+    pub(crate) generation: &'a [u32],
+}
+
+/// A pipeline whose invocations are the picture's pixels.
+pub(crate) enum Program {
+    Software(ComputePipeline),
+    Hardware(RayPipeline),
+}
+
+impl Program {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        table: &BindlessTable,
+        backend: Backend,
+        desc: &ProgramDesc<'_>,
+    ) -> Result<Self, GpuError> {
+        let set_layouts = &[table.layout()];
+        let push_constant_bytes = size_of::<ViewPush>() as u32;
+        match backend {
+            Backend::Software => gpu
+                .create_compute_pipeline(&ComputeDesc {
+                    name: desc.name,
+                    spirv: desc.compute,
+                    entry: c"main",
+                    specialization: &[],
+                    set_layouts,
+                    push_constant_bytes,
+                })
+                .map(Self::Software),
+            Backend::Hardware => gpu
+                .create_ray_pipeline(&RayPipelineDesc {
+                    name: desc.name,
+                    ray_generation: desc.generation,
+                    miss: shaders::TRACE_RMISS,
+                    hits: &hit_groups(),
+                    specialization: &[],
+                    set_layouts,
+                    push_constant_bytes,
+                })
+                .map(Self::Hardware),
+        }
+    }
+
+    /// Runs it for every pixel.
+    pub(crate) fn run(
+        &self,
+        commands: &Commands<'_>,
+        table: &BindlessTable,
+        push: &ViewPush,
+        size: [u32; 2],
+    ) {
+        match self {
+            Self::Software(pipeline) => run(commands, table, pipeline, push, pixel_groups(size)),
+            Self::Hardware(pipeline) => commands.trace_rays(pipeline, &[table.set()], push, size),
+        }
+    }
+}
+
+/// By the kinds of meshes (`driver_input::Kind`): triangles, spheres.
+fn hit_groups() -> [HitGroup<'static>; 2] {
+    let closest_hit = Some(shaders::TRACE_RCHIT);
+    [
+        HitGroup { closest_hit, any_hit: Some(shaders::TRACE_RAHIT), intersection: None },
+        HitGroup { closest_hit, any_hit: None, intersection: Some(shaders::TRACE_RINT) },
+    ]
+}

@@ -1,0 +1,143 @@
+//! The two backends of ray tracing make the same pictures, but for a few pixels at edges of triangles: there a ray may meet
+//! one side or the other, and numbers are rounded otherwise.
+
+use afterglow_api::constants::*;
+use afterglow_gl::texture::ImageDefinition;
+use afterglow_gl::{Context, Params};
+
+use super::pathtrace::{OPEN, SHADOW, Stage, look_down, slab};
+use crate::testing::assert_valid;
+use crate::{Backend, Mode, PathtraceOptions};
+
+/// Share of pixels that may differ by more than a step of 8 bits.
+const MOST_DIFFERING: f64 = 0.004;
+
+/// What both backends leave in the window after `draw`.
+fn pictures(change: impl Fn(&mut PathtraceOptions), draw: impl Fn(&mut Stage)) -> [Stage; 2] {
+    [Backend::Software, Backend::Hardware].map(|backend| {
+        let mut stage = Stage::new(Mode::Pathtrace, |options| {
+            change(options);
+            options.backend = backend;
+        });
+        draw(&mut stage);
+        stage
+    })
+}
+
+fn assert_alike([software, hardware]: &[Stage; 2]) {
+    let (software, hardware) = (software.picture(), hardware.picture());
+    let pixels = software.len() / 4;
+    let differs = |(one, other): &(&[u8], &[u8])| one.iter().zip(*other).any(|(a, b)| a.abs_diff(*b) > 1);
+    let differing = software.chunks(4).zip(hardware.chunks(4)).filter(differs).count();
+    assert!(differing as f64 <= MOST_DIFFERING * pixels as f64, "{differing} of {pixels} pixels differ");
+    assert_valid();
+}
+
+/// A lit floor and a slab over it that stands so far to the side, its triangles drawn as `draw_slab` does.
+fn floor_and_slab(stage: &mut Stage, aside: f32, draw_slab: impl Fn(&mut Context)) {
+    let gl = &mut stage.gl;
+    gl.clear_color(0.1, 0.2, 0.3, 1.0);
+    gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    look_down(gl);
+    for capability in [GL_LIGHTING, GL_LIGHT0, GL_DEPTH_TEST] {
+        gl.enable(capability);
+    }
+    gl.light(GL_LIGHT0, GL_POSITION, Params::Floats(&[0.0, 5.0, 0.0, 1.0]));
+    slab(gl, 4.0);
+    gl.translate(aside, 1.5, 0.0);
+    draw_slab(gl);
+    gl.swap_buffers();
+}
+
+#[test]
+fn shadows_and_bounced_light_are_the_same() {
+    let stages = pictures(|options| options.spp = 8, |stage| floor_and_slab(stage, 0.0, |gl| slab(gl, 0.8)));
+    assert!(stages[1].brightness(SHADOW) + 20 < stages[1].brightness(OPEN));
+    assert_alike(&stages);
+}
+
+#[test]
+fn light_goes_through_the_holes_of_a_texture() {
+    // Texels in columns, every other one a hole.
+    let draw = |gl: &mut Context, hole: u8| {
+        let texels: Vec<_> =
+            (0..8).flat_map(|texel| [255, 255, 255, if texel % 2 == 0 { hole } else { 255 }]).collect();
+        gl.tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, Params::Ints(&[GL_NEAREST as i32]));
+        let definition = ImageDefinition { level: 0, internal_format: GL_RGBA, size: [8, 1, 1], border: 0 };
+        gl.tex_image((GL_TEXTURE_2D, 2), definition, (GL_RGBA, GL_UNSIGNED_BYTE), Some(&texels));
+        gl.enable(GL_TEXTURE_2D);
+        gl.enable(GL_ALPHA_TEST);
+        gl.alpha_func(GL_GREATER, 0.5);
+        slab(gl, 0.8);
+        gl.disable(GL_ALPHA_TEST);
+        gl.disable(GL_TEXTURE_2D);
+    };
+    let drawn =
+        |hole| pictures(|options| options.spp = 8, |stage| floor_and_slab(stage, 0.0, |gl| draw(gl, hole)));
+    let (holes, whole) = (drawn(0), drawn(255));
+    assert!(holes[1].brightness(SHADOW) > whole[1].brightness(SHADOW) + 10);
+    assert_alike(&holes);
+    assert_alike(&whole);
+}
+
+/// A bent strip that waves from frame to frame: the same triangles, moved.
+fn wave(gl: &mut Context, phase: f32) {
+    gl.begin(GL_QUAD_STRIP);
+    gl.normal([0.0, 1.0, 0.0]);
+    for step in 0..=8 {
+        let x = step as f32 / 4.0 - 1.0;
+        let height = 0.4 * (4.0 * x + phase).sin();
+        gl.vertex([x, height, 0.8, 1.0]);
+        gl.vertex([x, height, -0.8, 1.0]);
+    }
+    gl.end();
+}
+
+#[test]
+fn what_moves_and_bends_is_met_where_it_is() {
+    let stages = pictures(
+        |options| options.filter = false,
+        |stage| {
+            for frame in 0..6 {
+                let phase = frame as f32;
+                floor_and_slab(stage, 0.1 * phase, |gl| wave(gl, phase));
+            }
+        },
+    );
+    assert_alike(&stages);
+}
+
+/// A display list of the slab: a mesh that lasts, so that it is compacted.
+#[test]
+fn what_lasts_stays_as_it_is_when_it_is_made_smaller() {
+    let [software, hardware] = pictures(
+        |options| options.filter = false,
+        |stage| {
+            stage.gl.new_list(1, GL_COMPILE);
+            for row in 0..40 {
+                stage.gl.translate(0.0, 0.0, if row == 0 { -0.78 } else { 0.04 });
+                slab(&mut stage.gl, 0.02);
+            }
+            stage.gl.end_list();
+            for _ in 0..6 {
+                floor_and_slab(stage, 0.0, |gl| gl.call_list(1));
+            }
+        },
+    );
+    assert_alike(&[software, hardware]);
+}
+
+#[test]
+fn the_backend_can_change() {
+    let mut stage = Stage::new(Mode::Pathtrace, |_| {});
+    floor_and_slab(&mut stage, 0.0, |gl| slab(gl, 0.8));
+    let before = stage.picture();
+    for backend in [Backend::Hardware, Backend::Software] {
+        let options = PathtraceOptions { spp: 4, accumulate: false, backend, ..PathtraceOptions::default() };
+        stage.renderer.lock().unwrap().set_mode(Mode::Pathtrace, &options).unwrap();
+        floor_and_slab(&mut stage, 0.0, |gl| slab(gl, 0.8));
+    }
+    let differing = before.iter().zip(&stage.picture()).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+    assert!(differing < before.len() / 100, "{differing}");
+    assert_valid();
+}

@@ -12,7 +12,9 @@ use clap::Args;
 
 use crate::failure::Failure;
 use crate::libdir;
-use crate::options::{Backend, Baked, DeviceArguments, ImageArguments, KeepArguments, Mode, ProfileArguments};
+use crate::options::{
+    Backend, Baked, DeviceArguments, ImageArguments, KeepArguments, Mode, ProfileArguments,
+};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]

@@ -119,16 +119,19 @@ bool intersect_sphere(vec3 origin, vec3 inverse, RayShear shear, float t_min, ve
 // Where a ray from surface point `position` starts, moved along `normal` (on the side of the new
 // ray) past the rounding of the point itself: by a count of representable numbers, or near 0 by a
 // length (Waechter and Binder, A Fast and Robust Method for Avoiding Self-Intersection, Ray Tracing
-// Gems, 2019, chapter 6).
+// Gems, 2019, chapter 6). Their lengths are of a scene of size 1; here the greatest coordinate stands for that, so that
+// a scene is the same at any scale.
 vec3 offset_ray(vec3 position, vec3 normal) {
-    const float near_zero = 1.0 / 32.0;
-    const float length_near_zero = 1.0 / 65536.0;
+    vec3 size = abs(position);
+    float greatest = max(max(size.x, size.y), size.z);
+    float near_zero = greatest * (1.0 / 32.0);
+    float length_near_zero = greatest * (1.0 / 65536.0);
     const float steps = 256.0;
     ivec3 count = ivec3(steps * normal);
     ivec3 away = mix(count, -count, lessThan(position, vec3(0.0)));
     vec3 stepped = intBitsToFloat(floatBitsToInt(position) + away);
     vec3 moved = position + length_near_zero * normal;
-    return mix(stepped, moved, lessThan(abs(position), vec3(near_zero)));
+    return mix(stepped, moved, lessThanEqual(size, vec3(near_zero)));
 }
 
 #endif

@@ -57,6 +57,10 @@ shared_struct! {
         pub base_color: [f32; 3],
         /// How its maps are to be read: see `MapWord`.
         pub maps: u32,
+        /// Object-space distance along an axis, at most, from where rays are taken relative to in the mesh that it is part of;
+        /// infinite if that is the object's origin.
+        pub reach: f32,
+        pub padding: u32,
     }
 }
 

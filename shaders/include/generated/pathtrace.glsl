@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 248 bytes
+struct SurfaceDraw { // 256 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -31,6 +31,8 @@ struct SurfaceDraw { // 248 bytes
     uint first_light;
     vec3 base_color;
     uint maps;
+    float reach;
+    uint padding;
 };
 #endif
 

@@ -79,8 +79,10 @@ SurfacePoint surface_point(ViewRecord view, Hit hit, vec3 direction) {
     vec3 edge_1 = world_position(draw, positions[1]) - first;
     vec3 edge_2 = world_position(draw, positions[2]) - first;
     vec3 normal = unit_vector(cross(edge_1, edge_2));
-    bool is_front = dot(normal, direction) <= 0.0;
-    normal = is_front ? normal : -normal;
+    bool is_towards = dot(normal, direction) <= 0.0;
+    // A matrix that mirrors turns corners the other way about, and no front inside.
+    bool is_front = is_towards != mirrors(draw.it.object_to_world);
+    normal = is_towards ? normal : -normal;
     vec3 position = first + edge_1 * weights.y + edge_2 * weights.z;
     SurfacePoint point = shining_point(vec3(0.0), NO_LIGHT);
     point.start = offset_ray(position, normal) + normal * start_distance(draw, dehomogenized(positions[0]));

@@ -73,11 +73,17 @@ vec3 world_normal(mat3x4 rows, vec3 normal_object) {
     return (normal_object * cofactors) * sign(dot(rows[0].xyz, cofactors[0]));
 }
 
-// How far a point's rays must start from it, so that they do not meet its own triangle: matrices of
-// instances are rounded, the more so, the farther the object reaches.
+bool mirrors(mat3x4 rows) {
+    return dot(rows[0].xyz, cross(rows[1].xyz, rows[2].xyz)) < 0.0;
+}
+
+// How far a point's rays must start from it, so that they do not meet its own triangle: rays are rounded where they enter
+// an instance, the more so, the farther the object reaches.
 float start_distance(DrawReference draw, vec3 position_object) {
-    vec3 reach = abs(position_object);
-    return 4e-6 * length(draw.it.object_to_world[0].xyz) * max(max(reach.x, reach.y), reach.z);
+    mat3x4 rows = draw.it.object_to_world;
+    vec3 reach = min(abs(position_object), draw.it.reach);
+    vec3 world = vec3(dot(abs(rows[0].xyz), reach), dot(abs(rows[1].xyz), reach), dot(abs(rows[2].xyz), reach));
+    return 4e-6 * max(max(world.x, world.y), world.z);
 }
 
 // The colour that vertices have at a point, for lighting or in its place.

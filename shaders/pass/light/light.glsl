@@ -8,6 +8,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "trace.glsl"
+#include "pathtrace/finite.glsl"
 #include "pathtrace/reservoir.glsl"
 
 // How dark things that touch a surface with baked light make it.
@@ -33,8 +34,10 @@ Channels no_channels() {
 
 // A sample's light, limited so that rare paths leave no bright dots; counted where it was.
 vec3 limited(ViewRecord view, vec3 light) {
+    FiniteRadiance finite = finite_radiance(light);
+    light = finite.value;
     float brightest = max(light.x, max(light.y, light.z));
-    if (!(brightest < 1e18)) {
+    if (!finite.was_finite) {
         atomicAdd(Counters(view.counters).entries[0].non_finite, 1u);
         return vec3(0.0);
     }

@@ -8,6 +8,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "trace.glsl"
+#include "pathtrace/finite.glsl"
 #include "pathtrace/path.glsl"
 
 // The dimension of where in the pixel a sample's ray goes, beyond those of all surfaces.
@@ -54,12 +55,15 @@ Sample new_sample() {
     return Sample(path, no_channels(), vec3(0.0), false);
 }
 
-// Adds a sample's radiance; one that is no number counts as black.
+// Adds a sample's radiance; one that is no number counts as black, and what squares would overflow as less.
 void add_radiance(ViewRecord view, vec3 radiance, uint samples, inout RadianceTexel texel) {
-    float brightest = max(radiance.x, max(radiance.y, radiance.z));
-    if (!(brightest < 1e18)) {
+    FiniteRadiance finite = finite_radiance(radiance);
+    radiance = finite.value;
+    if (!finite.was_finite) {
         atomicAdd(Counters(view.counters).entries[0].non_finite, 1u);
-        radiance = vec3(0.0);
+    }
+    if (finite.was_capped) {
+        atomicAdd(Counters(view.counters).entries[0].limited, 1u);
     }
     vec3 apart = radiance - texel.mean;
     texel.mean += apart / float(samples);

@@ -222,9 +222,12 @@ impl<'a> Gatherer<'a, '_> {
         let corners = self.geometry.corners(self.input.frame, place.draw);
         let (model, origin) = (verdict.model.as_dmat4(), self.origin);
         let place =
-            |corner: &[f32; 3]| (model.transform_point3(Vec3::from(*corner).as_dvec3()) - origin).as_vec3();
-        shining.extend(self.geometry.corners[corners].as_chunks::<3>().0.iter().map(|corners| {
-            ShiningTriangle { corners: corners.each_ref().map(place), radiance, is_one_sided }
+            |corner: [f32; 3]| (model.transform_point3(Vec3::from(corner).as_dvec3()) - origin).as_vec3();
+        let is_mirrored = model.determinant() < 0.0;
+        shining.extend(self.geometry.corners[corners].as_chunks::<3>().0.iter().map(|&[a, b, c]| {
+            // The front stays the front.
+            let corners = if is_mirrored { [a, c, b] } else { [a, b, c] };
+            ShiningTriangle { corners: corners.map(place), radiance, is_one_sided }
         }));
     }
 

@@ -6,6 +6,8 @@ use afterglow_gl::frame::{Draw, Format, Frame, Slot, VertexSource};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::xxh3_64;
 
+use super::anchors::Reach;
+
 /// Frames after which what was learned of a retained range is forgotten, unless it was drawn.
 const IDLE_FRAMES: u64 = 120;
 
@@ -17,6 +19,15 @@ pub(crate) struct Triangles {
     pub(crate) count: u32,
     /// Corners in [`GeometryReader::corners`]; empty if the triangles are known from an earlier frame.
     pub(crate) corners: Range<usize>,
+    pub(crate) reach: Reach,
+}
+
+/// What was learned of a retained range.
+struct Known {
+    hash: u64,
+    reach: Reach,
+    /// The frame in which it was last drawn.
+    drawn: u64,
 }
 
 /// A part of a retained range: its id, first index, number of indices.
@@ -27,8 +38,8 @@ type RetainedPart = (u64, u32, u32);
 pub(crate) struct GeometryReader {
     /// Corners of this frame's triangles.
     pub(crate) corners: Vec<[f32; 3]>,
-    /// Hashes of what never changes, and when it was last drawn.
-    known: HashMap<RetainedPart, (u64, u64)>,
+    /// What never changes.
+    known: HashMap<RetainedPart, Known>,
     frame: u64,
 }
 
@@ -37,23 +48,24 @@ impl GeometryReader {
         self.frame += 1;
         self.corners.clear();
         let frame = self.frame;
-        self.known.retain(|_, (_, drawn)| *drawn + IDLE_FRAMES > frame);
+        self.known.retain(|_, known| known.drawn + IDLE_FRAMES > frame);
     }
 
     /// The triangles of a draw, whose vertices and indices lie within the frame's.
     pub(crate) fn read(&mut self, frame: &Frame, draw: &Draw) -> Triangles {
         let count = draw.index_count / 3;
         let part = retained_part(frame, draw);
-        if let Some((hash, drawn)) = part.and_then(|part| self.known.get_mut(&part)) {
-            *drawn = self.frame;
-            return Triangles { hash: *hash, count, corners: 0..0 };
+        if let Some(known) = part.and_then(|part| self.known.get_mut(&part)) {
+            known.drawn = self.frame;
+            return Triangles { hash: known.hash, count, corners: 0..0, reach: known.reach };
         }
         let corners = self.corners(frame, draw);
         let hash = xxh3_64(bytemuck::cast_slice(&self.corners[corners.clone()]));
+        let reach = Reach::of(&self.corners[corners.clone()]);
         if let Some(part) = part {
-            self.known.insert(part, (hash, self.frame));
+            self.known.insert(part, Known { hash, reach, drawn: self.frame });
         }
-        Triangles { hash, count, corners }
+        Triangles { hash, count, corners, reach }
     }
 
     /// Reads the corners of triangles that were not needed before.

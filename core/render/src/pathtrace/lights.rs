@@ -123,7 +123,10 @@ fn light_source(light: &SceneLight, origin: DVec3, displacement: Vec3) -> LightS
     match light.shape {
         LightShape::Directional { to_light, angular_radius } => LightSource {
             position: (to_light + displacement).normalize_or(to_light).to_array(),
-            radius: angular_radius.clamp(0.0, std::f32::consts::FRAC_PI_2).sin(),
+            radius: match angular_radius.is_finite() {
+                true => angular_radius.clamp(0.0, std::f32::consts::FRAC_PI_2).sin(),
+                false => f32::NAN,
+            },
             kind: LIGHT_FAR,
             ..common
         },

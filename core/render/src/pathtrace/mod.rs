@@ -4,6 +4,7 @@
 //! read and the world that rays meet, `schedule` declares the passes, one file each in `passes`, and `record` records
 //! them. All else of the frame is rasterized as in `raster` mode.
 
+mod anchors;
 pub(crate) mod arrange;
 mod backend;
 pub(crate) mod buffers;

@@ -82,7 +82,8 @@ pub(crate) fn prepare(
     size: [u32; 2],
 ) -> Result<PreparedTrace, GpuError> {
     tracer.world.begin_frame()?;
-    let origin = camera.view.inverse().w_axis.truncate();
+    // In f32, so that differences to what is near it are exact.
+    let origin = camera.view.inverse().w_axis.truncate().as_vec3().as_dvec3();
     let geometry = &mut tracer.world.geometry;
     let mut surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
     tracer.has_camera_rays = tracing.is_staged && tracer.mode == Mode::Reference;
@@ -98,6 +99,9 @@ pub(crate) fn prepare(
     surfaces.list_lights(&tracing.scene.lights, origin, &tracer.options);
     tracer.kept.begin(&surfaces.lights);
     let world = tracer.world.build(input.frame, &surfaces.traced, &surfaces.lights, origin, input.arena)?;
+    for (traced, reach) in surfaces.traced.iter().zip(&tracer.world.reaches) {
+        surfaces.records[traced.surface as usize].reach = *reach;
+    }
     let common = tracer.common(&mut input, tracing, camera, &surfaces, &world, size)?;
     let mut views = Vec::with_capacity(tracing.arrangement.views.len());
     let mut finds_exposure = true;

@@ -44,7 +44,7 @@ impl Renderer {
     pub fn read_radiance(&mut self) -> Result<Option<Radiance>, RenderError> {
         self.finish()?;
         let Some((tracer, buffers)) = self.tracer.as_ref().and_then(with_buffers) else { return Ok(None) };
-        let Some(radiance) = &buffers.radiance else { return Ok(None) };
+        let Some(radiance) = buffers.radiance.as_ref().filter(|_| tracer.is_tracing) else { return Ok(None) };
         let bytes = self.gpu.download_buffer(&radiance.buffer)?;
         let texels: Vec<RadianceTexel> = bytemuck::pod_collect_to_vec(&bytes);
         let samples = tracer.history.first().map_or(0, super::change::History::samples);

@@ -40,6 +40,13 @@ impl PixelRays {
             down: sound(down),
         }
     }
+
+    /// Whether different pixels have different rays: a projection that is none leaves nothing of them.
+    pub(crate) fn are_apart(&self) -> bool {
+        let [origin, right, down] =
+            [self.origin, self.right, self.down].map(|ray| Vec3::from(ray).as_dvec3());
+        origin.dot(right.cross(down)) != 0.0
+    }
 }
 
 /// In f32; zero if a projection is none.

@@ -90,7 +90,7 @@ mod tests {
             (0..120).map(|triangle| [0, 1, 2].map(|corner| 3 * triangle + corner)).collect();
         let attributes: Vec<_> = (0..120_u32)
             .map(|triangle| TriangleAttributes {
-                primitive: (triangle / 60) << MEMBER_SHIFT | triangle % 60,
+                primitive: ((triangle / 60) << MEMBER_SHIFT) | (triangle % 60),
                 flags: 0,
             })
             .collect();

@@ -34,10 +34,13 @@ impl SaidMaterial {
         let without = |map: u32, absent: f32| if map == NO_MAP { absent } else { 1.0 };
         let roughness = without(self.metallic_roughness_map, record.roughness);
         let metallic = without(self.metallic_roughness_map, record.metallic);
-        let [roughness, metallic] = self.said.roughness_metallic.unwrap_or([roughness, metallic]);
+        let said = self.said.roughness_metallic.map(|said| said.map(|value| sound(value, 1.0)));
+        let [roughness, metallic] = said.unwrap_or([roughness, metallic]);
+        let base_color = self.said.base_color.map(|color| color.map(|channel| sound(channel, f32::MAX)));
+        let emission = self.said.emission.map(|emission| emission.map(|channel| sound(channel, f32::MAX)));
         SurfaceDraw {
-            base_color: self.said.base_color.unwrap_or([-1.0; 3]),
-            emission: self.said.emission.unwrap_or([without(self.emission_map, 0.0); 3]),
+            base_color: base_color.unwrap_or([-1.0; 3]),
+            emission: emission.unwrap_or([without(self.emission_map, 0.0); 3]),
             roughness,
             metallic,
             normal_map: self.normal_map,
@@ -46,4 +49,9 @@ impl SaidMaterial {
             ..record
         }
     }
+}
+
+/// From 0 to `most`; what is no number is 0.
+fn sound(value: f32, most: f32) -> f32 {
+    if value > 0.0 { value.min(most) } else { 0.0 }
 }

@@ -126,6 +126,8 @@ pub(crate) fn surface_draw(
         first_light: NO_LIGHT,
         base_color: [-1.0; 3],
         maps: 0,
+        reach: f32::INFINITY,
+        padding: 0,
     }
 }
 
@@ -178,12 +180,13 @@ impl LayerFinder {
 
 #[cfg(test)]
 mod tests {
+    use super::super::anchors::Reach;
     use super::*;
     use bytemuck::Zeroable;
 
     #[test]
     fn layers_hang_onto_the_last_draw_of_the_same_triangles() {
-        let triangles = |hash| Triangles { hash, count: 2, corners: 0..0 };
+        let triangles = |hash| Triangles { hash, count: 2, corners: 0..0, reach: Reach::NOTHING };
         let mut surfaces = vec![SurfaceDraw::zeroed(); 4];
         for (number, surface) in surfaces.iter_mut().enumerate() {
             surface.next_layer = number as u32;

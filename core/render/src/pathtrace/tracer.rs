@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afterglow_frame_graph::{CompiledGraph, ResourceState};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
-use afterglow_scene::{Recovery, Scene};
+use afterglow_scene::{Camera, Recovery, Scene};
 
 use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
@@ -14,6 +14,7 @@ use super::kept::KeptLights;
 use super::options::{Mode, PathtraceOptions};
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
+use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewResources};
 use super::unseen;
 use super::world::WorldBuilder;
@@ -57,6 +58,10 @@ pub(crate) struct Tracer {
     pub(crate) kept: KeptLights,
     /// The last frame was seen by rays of the camera.
     pub(crate) has_camera_rays: bool,
+    /// A line has said that some frames cannot be traced.
+    has_said_blind: bool,
+    /// The last frame was traced.
+    pub(crate) is_tracing: bool,
     /// An earlier frame has found an exposure.
     pub(crate) has_exposure: bool,
     /// What was handed over of the frame that is going on.
@@ -138,6 +143,8 @@ impl Tracer {
             history: Vec::new(),
             kept: KeptLights::default(),
             has_camera_rays: false,
+            has_said_blind: false,
+            is_tracing: false,
             has_exposure: false,
             parts: Parts::None,
             has_begun_unseen: false,
@@ -156,13 +163,25 @@ impl Tracer {
         self.put_in_order(frame, scene, true)
     }
 
+    /// Whether a camera shows the world; says so once if it does not. Rays of its own need a perspective.
+    fn can_see(&mut self, camera: &Camera, is_staged: bool) -> bool {
+        let has_rays = is_staged && self.mode == Mode::Reference;
+        let is_undone = camera.projection.as_dmat4().inverse().is_finite();
+        let can_see = is_undone && (!has_rays || PixelRays::new(camera, [1, 1]).are_apart());
+        if !can_see && !std::mem::replace(&mut self.has_said_blind, true) {
+            tracing::warn!("no rays for a projection: frames with it are rasterized");
+        }
+        can_see
+    }
+
     fn put_in_order(&mut self, frame: &mut Frame, mut scene: Scene, is_staged: bool) -> Understood {
         if scene.cut {
             self.forget();
             self.has_exposure = false;
         }
         let report = SceneReport::of(&scene);
-        let arrangement = scene.camera.map(|_| arrange(frame, &scene));
+        let camera = scene.camera.filter(|camera| self.can_see(camera, is_staged));
+        let arrangement = camera.map(|_| arrange(frame, &scene));
         let arrangement = arrangement.filter(|arrangement| !arrangement.views.is_empty());
         let tracing = arrangement.map(|mut arrangement| {
             arrangement.apply(frame, &mut scene);
@@ -170,6 +189,7 @@ impl Tracer {
             unseen::append(frame, &mut scene, &mut arrangement);
             Tracing { scene, arrangement, rasterized, is_staged }
         });
+        self.is_tracing = tracing.is_some();
         Understood { report, tracing }
     }
 

@@ -6,10 +6,11 @@
 use afterglow_gl::frame::{Draw, Frame, VertexSource};
 use afterglow_gpu::{Gpu, GpuError};
 use afterglow_records::{MASK_STATIC, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MeshMember};
-use glam::{DVec3, Mat4};
+use glam::{DVec3, Mat4, Vec3};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64_with_seed};
 
+use super::anchors::{Anchor, Reach};
 use super::backend::Backend;
 use super::geometry::{GeometryReader, Triangles};
 use super::lights::{Lamps, LightList};
@@ -56,6 +57,7 @@ struct Group {
     /// Numbers among the traced draws.
     draws: Vec<usize>,
     members: usize,
+    reach: Reach,
 }
 
 /// What groups are found by: the matrix's bits, the mask, the block.
@@ -65,13 +67,19 @@ type GroupKey = ([u32; 16], u8, Option<u32>);
 pub(crate) struct WorldBuilder {
     structures: Structures,
     pub(crate) geometry: GeometryReader,
+    /// Of each traced draw of the frame that was built: `SurfaceDraw::reach`.
+    pub(crate) reaches: Vec<f32>,
 }
 
 impl WorldBuilder {
     /// # Errors
     /// If the device lacks the backend.
     pub(crate) fn new(gpu: &Gpu, backend: Backend) -> Result<Self, GpuError> {
-        Ok(Self { structures: Structures::new(gpu, backend)?, geometry: GeometryReader::default() })
+        Ok(Self {
+            structures: Structures::new(gpu, backend)?,
+            geometry: GeometryReader::default(),
+            reaches: Vec::new(),
+        })
     }
 
     pub(crate) fn begin_frame(&mut self) -> Result<(), GpuError> {
@@ -100,14 +108,18 @@ impl WorldBuilder {
         }
         let mut members = Vec::new();
         let mut placed = Vec::new();
+        self.reaches.clear();
+        self.reaches.resize(traced.len(), f32::INFINITY);
         for (content, group) in &groups {
+            let anchor = Anchor::of(group.reach);
+            group.draws.iter().for_each(|&draw| self.reaches[draw] = anchor.reach);
             if !self.structures.has(*content) {
                 self.build_mesh(frame, group, traced, *content, arena)?;
             }
             if self.structures.take(*content) {
                 placed.push(Placed {
                     content: *content,
-                    object_to_world: relative(&group.model, origin),
+                    object_to_world: anchored(&group.model, anchor.place, origin),
                     id: members.len() as u32,
                     mask: group.mask,
                 });
@@ -150,6 +162,7 @@ impl WorldBuilder {
                 is_alpha_tested: traced.is_alpha_tested,
             }));
         }
+        Anchor::of(group.reach).subtract_from(&mut corners);
         let shapes = Shapes::Triangles { corners: &corners, members: &members };
         self.structures.build(content, &MeshInput { shapes, is_lasting: group.is_lasting }, arena)
     }
@@ -188,6 +201,17 @@ pub(crate) fn relative(model: &Mat4, origin: DVec3) -> [[f32; 4]; 3] {
     })
 }
 
+/// The same for corners that are relative to a place in object space.
+fn anchored(model: &Mat4, place: Vec3, origin: DVec3) -> [[f32; 4]; 3] {
+    if place == Vec3::ZERO {
+        return relative(model, origin);
+    }
+    let translation = model.as_dmat4().transform_point3(place.as_dvec3()) - origin;
+    let mut rows = relative(model, origin);
+    rows.iter_mut().zip(translation.to_array()).for_each(|(row, along)| row[3] = along as f32);
+    rows
+}
+
 fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut open: HashMap<GroupKey, usize> = HashMap::new();
@@ -202,6 +226,7 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
             is_lasting: matches!(traced.draw.source, VertexSource::Retained { .. }),
             draws: vec![index],
             members,
+            reach: traced.triangles.reach,
         };
         if new.is_lasting && traced.block.is_none() {
             groups.push(new);
@@ -212,6 +237,7 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
             Some(group) if group.members + members <= MOST_MEMBERS => {
                 group.draws.push(index);
                 group.members += members;
+                group.reach = group.reach.union(traced.triangles.reach);
             }
             _ => {
                 open.insert(key, groups.len());

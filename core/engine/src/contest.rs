@@ -78,8 +78,7 @@ mod tests {
     use afterglow_render::{PassReport, TraceCounts};
 
     fn report(index: u64, milliseconds: f64) -> FrameReport {
-        let mut traced = TraceCounts::default();
-        traced.instances = 1;
+        let traced = TraceCounts { instances: 1, ..TraceCounts::default() };
         let light = PassReport { name: PASS.to_owned(), count: 1, milliseconds };
         FrameReport { index, passes: vec![light], traced: Some(traced), ..FrameReport::default() }
     }

@@ -216,7 +216,8 @@ shared_struct! {
         pub traits: u32,
         /// Radiance that one sample brings at most, where it is limited.
         pub most_radiance: f32,
-        pub padding: u32,
+        /// How bright OpenGL's highlights are beside the light that surfaces scatter, 0 to 1.
+        pub highlight: f32,
         /// Samples a pixel of this frame.
         pub samples: u32,
         /// Samples a pixel that [`ViewRecord::light`] holds already.

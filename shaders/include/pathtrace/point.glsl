@@ -43,7 +43,7 @@ void program_surface(ViewRecord view, DrawReference draw, uint draw_index, uint 
         vec4 followed = state.color_material_faces == 0u ? vec4(0.0) : vertex_color(view, draw, state, triangle, weights);
         MaterialFace material = point_material(view, draw, state, followed);
         point.emission = linear_from_srgb(color * clamp(material.emission.rgb, 0.0, 1.0));
-        lobe = highlight_lobe(linear_from_srgb(clamp(material.specular.rgb, 0.0, 1.0)), material.shininess);
+        lobe = highlight_lobe(view, linear_from_srgb(clamp(material.specular.rgb, 0.0, 1.0)), material.shininess);
         color *= clamp(material.diffuse.rgb, 0.0, 1.0);
     }
     color = linear_from_srgb(color);

@@ -186,7 +186,7 @@ SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint tr
         MaterialFace material = point_material(view, draw, state, color);
         // Textures are over all of a material, but for highlights that are added after them.
         vec3 specular = state.separate_specular ? material.specular.rgb : material.specular.rgb * albedo;
-        vec4 lobe = highlight_lobe(linear_from_srgb(clamp(specular, 0.0, 1.0)), material.shininess);
+        vec4 lobe = highlight_lobe(view, linear_from_srgb(clamp(specular, 0.0, 1.0)), material.shininess);
         texel.specular = pack_lobe(lobe.rgb, lobe.w);
         emission = clamp(material.emission.rgb, 0.0, 1.0) * albedo;
         albedo *= clamp(material.diffuse.rgb, 0.0, 1.0);

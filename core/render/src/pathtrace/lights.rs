@@ -1,9 +1,10 @@
 //! A scene's lights as shaders read them: those infinitely far, then those with a place, and the tree over these.
 
+use afterglow_gl::frame::Lights;
 use afterglow_records::{
     LIGHT_FAR, LIGHT_POINT, LIGHT_SPHERE, LIGHT_TRIANGLE, LIGHT_TRIANGLE_BOTH, LightNode, LightSource,
 };
-use afterglow_scene::{LightOrigin, LightShape, SceneLight};
+use afterglow_scene::{LightOrigin, LightShape, SceneLight, linear_from_srgb};
 use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 
@@ -103,6 +104,21 @@ impl LightList {
     }
 }
 
+/// How bright the highlights of OpenGL's lights are beside the light that surfaces scatter, at most 1: the greatest ratio
+/// of a light's specular to its diffuse luminance. 1 where light comes from elsewhere.
+pub(crate) fn highlight(tables: &[Lights], lights: &[SceneLight]) -> f32 {
+    let luminance = |color: Vec3| color.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+    let ratio = |light: &SceneLight| {
+        let LightOrigin::Gl(number) = light.origin else { return None };
+        let own = tables.iter().filter_map(|table| table.lights.get(usize::from(number)));
+        let specular = own.map(|light| Vec3::from_slice(&light.specular[..3]).clamp(Vec3::ZERO, Vec3::ONE));
+        let brightest = specular.map(|color| luminance(linear_from_srgb(color))).fold(0.0, f32::max);
+        Some(brightest / luminance(light.color).max(1e-3))
+    };
+    let greatest = lights.iter().filter_map(ratio).reduce(f32::max);
+    greatest.unwrap_or(1.0).clamp(0.0, 1.0)
+}
+
 fn count_of(sources: &[LightSource], kind: u32) -> usize {
     sources.iter().filter(|source| source.kind == kind).count()
 }
@@ -182,6 +198,17 @@ mod tests {
         let list = LightList::new(&[light, light], &[], origin, Some((1, Vec3::Y)));
         assert_eq!(list.sources[0].position, [0.0, 2.0, 3.0]);
         assert_eq!(list.sources[1].position, [0.0, 3.0, 3.0]);
+    }
+
+    #[test]
+    fn highlights_are_as_bright_as_their_lights_say() {
+        let mut table = Lights::zeroed();
+        table.lights[1].specular = [0.1, 0.1, 0.1, 1.0];
+        let light = point(Vec3::X, LightOrigin::Gl(1));
+        assert!((highlight(&[table], &[light]) - 0.01).abs() < 1e-3);
+        assert_eq!(highlight(&[table], &[point(Vec3::X, LightOrigin::Profile)]), 1.0);
+        table.lights[1].specular = [f32::NAN; 4];
+        assert!((0.0..=1.0).contains(&highlight(&[table], &[light])));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::buffers::{ViewBuffers, sum_count};
 use super::change::{ChangeHasher, History, changes_textures};
 use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
-use super::lights::LightList;
+use super::lights::{LightList, highlight};
 use super::options::Mode;
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
@@ -176,6 +176,7 @@ impl Tracer {
                 candidates: estimator.candidates,
                 traits: estimator.traits,
                 most_radiance: estimator.most_radiance,
+                highlight: highlight(&input.frame.lights, &scene.lights),
                 samples: options.spp.max(1),
                 seed: options.seed,
                 bake_scale: scene.relit.as_ref().map_or(0.0, |relit| relit.scale),

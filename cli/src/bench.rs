@@ -3,6 +3,7 @@
 mod gl;
 mod gl_client;
 mod lights;
+mod rays;
 mod scene;
 mod xlib;
 
@@ -21,6 +22,8 @@ pub struct Arguments {
 enum What {
     /// What OpenGL calls cost a program's thread, beside Mesa's front end with nothing behind it. Needs an X server.
     Gl(gl::Arguments),
+    /// Rays a second through the structures that light is traced in, and what building them costs.
+    Rays(rays::Arguments),
     /// What understanding frames costs, beside playing and copying them: of traces, and of worlds that grow.
     Scene(scene::Arguments),
     /// What many lights cost, and what choosing among them well is worth.
@@ -34,6 +37,7 @@ enum What {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.what {
         What::Gl(arguments) => gl::run(arguments),
+        What::Rays(arguments) => rays::run(arguments),
         What::Scene(arguments) => scene::run(arguments),
         What::Lights(arguments) => lights::run(arguments),
         What::GlClient(arguments) => gl_client::run(arguments),

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use afterglow_metrics::{Comparison, Image, compare, io, side_by_side};
+use afterglow_metrics::{Comparison, Image, Noise, combine_standard_errors, compare_noisy, io, side_by_side};
 use clap::Args;
 
 use crate::failure::Failure;
@@ -13,13 +13,20 @@ use crate::output;
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// A picture: PNG, EXR or .npy
+    /// A picture: PNG, EXR, .npy, or an array of an .npz as in FILE.npz:ARRAY
     picture: PathBuf,
     /// What it is compared with
     reference: PathBuf,
-    /// Standard error of each pixel (linear pictures only)
+    /// Standard error of each pixel (linear pictures only); several are combined as the root of the sum of their squares
     #[arg(long, value_name = "FILE")]
-    standard_error: Option<PathBuf>,
+    standard_error: Vec<PathBuf>,
+    /// Standard error of each pixel of the reference, to be combined with those
+    #[arg(long, value_name = "FILE")]
+    reference_error: Option<PathBuf>,
+    /// Leave out pixels whose luminance has a standard error in the reference of more than this share of it, but for SSIM,
+    /// PSNR and FLIP
+    #[arg(long, value_name = "SHARE", value_parser = number, requires = "reference_error")]
+    max_reference_error: Option<f64>,
     /// Write both pictures beside each other
     #[arg(long, value_name = "FILE")]
     side_by_side: Option<PathBuf>,
@@ -37,12 +44,18 @@ pub struct Arguments {
 /// Runs `compare`.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let (picture, reference) = (load(&arguments.picture)?, load(&arguments.reference)?);
-    let standard_error = arguments.standard_error.as_deref().map(load).transpose()?;
+    let of_picture = standard_error(&arguments.standard_error)?;
+    let of_reference = arguments.reference_error.as_deref().map(load).transpose()?;
+    let noise = Noise {
+        of_picture: of_picture.as_ref(),
+        of_reference: of_reference.as_ref(),
+        most_of_reference: arguments.max_reference_error,
+    };
     if let Some(path) = &arguments.side_by_side {
         let joined = side_by_side(&[&picture, &reference], 4).map_err(|error| Failure::input(path, error))?;
         io::save(&joined, path).map_err(|error| Failure::output(path, std::io::Error::other(error)))?;
     }
-    let comparison = compare(&picture, &reference, standard_error.as_ref())
+    let comparison = compare_noisy(&picture, &reference, &noise)
         .map_err(|error| Failure::input(&arguments.picture, error))?;
     match &arguments.json {
         Some(path) => output::write_json(path, &comparison)?,
@@ -53,6 +66,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 fn load(path: impl AsRef<Path>) -> Result<Image, Failure> {
     io::load(path.as_ref()).map_err(|error| Failure::input(path.as_ref(), error))
+}
+
+/// All of them combined, if there are any.
+fn standard_error(paths: &[PathBuf]) -> Result<Option<Image>, Failure> {
+    let Some((first, others)) = paths.split_first() else { return Ok(None) };
+    let mut combined = load(first)?;
+    for path in others {
+        let error = load(path)?;
+        combined = combine_standard_errors(&combined, &error).map_err(|error| Failure::input(path, error))?;
+    }
+    Ok(Some(combined))
 }
 
 fn write(comparison: &Comparison, out: &mut impl Write) -> std::io::Result<()> {
@@ -69,6 +93,9 @@ fn write(comparison: &Comparison, out: &mut impl Write) -> std::io::Result<()> {
     if comparison.blocks_beyond_4.is_some() {
         line("blocks beyond 4", comparison.blocks_beyond_4)?;
         line("blocks beyond 6", comparison.blocks_beyond_6)?;
+    }
+    if comparison.left_out > 0 {
+        writeln!(out, "pixels left out  {}", comparison.left_out)?;
     }
     if !comparison.all_finite() {
         writeln!(

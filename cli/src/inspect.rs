@@ -10,6 +10,7 @@ pub mod play;
 mod propose;
 mod rows;
 mod summary;
+mod textures;
 
 use std::path::PathBuf;
 
@@ -41,6 +42,9 @@ pub struct Arguments {
     /// What the pictures are coloured by; all of it unless it is said
     #[arg(long, value_enum, value_delimiter = ',', value_name = "BY", requires = "paint")]
     by: Vec<paint::By>,
+    /// Write each texture that is drawn with to this folder, named after its hash as replacement images are
+    #[arg(long, value_name = "DIR", conflicts_with = "calls")]
+    textures: Option<PathBuf>,
     /// Of the frames, only every Nth
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..), conflicts_with = "calls")]
     every: u64,
@@ -62,7 +66,11 @@ pub struct Arguments {
 impl Arguments {
     /// Whether draws have to be understood.
     fn is_about_draws(&self) -> bool {
-        self.draws || self.classes || self.paint.is_some() || self.propose.is_some()
+        self.draws
+            || self.classes
+            || self.paint.is_some()
+            || self.propose.is_some()
+            || self.textures.is_some()
     }
 
     /// Whether standard output is a JSON file.

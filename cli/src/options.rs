@@ -187,6 +187,26 @@ impl ProfileArguments {
     }
 }
 
+/// Images that take the place of the program's textures.
+#[derive(Debug, Args)]
+pub struct ImageArguments {
+    /// Folder of images that take the place of the program's textures, each named after its texture's hash; the default is
+    /// the profile's, if it has one (pathtrace)
+    #[arg(long, value_name = "DIR", env = "AFTERGLOW_REPLACE_IMAGES")]
+    pub replace_images: Option<PathBuf>,
+}
+
+impl ImageArguments {
+    /// The folder; one that is asked for must be there.
+    pub fn folder(&self, profile: Option<&Profile>) -> Result<Option<PathBuf>, Failure> {
+        if let Some(folder) = &self.replace_images {
+            std::fs::read_dir(folder).map_err(|error| Failure::input(folder, error))?;
+            return std::path::absolute(folder).map(Some).map_err(|error| Failure::input(folder, error));
+        }
+        Ok(profile.and_then(|profile| profile.images.clone()))
+    }
+}
+
 /// What is kept of a program for its next run.
 #[derive(Debug, Args)]
 pub struct KeepArguments {

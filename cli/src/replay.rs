@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use afterglow_player::{Player, TraceSummary};
-use afterglow_render::{Displaced, Paint, PathtraceOptions};
+use afterglow_render::{Displaced, ImageOptions, Paint, PathtraceOptions};
 use afterglow_scene::Relighting;
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
@@ -15,7 +15,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::failure::{self, Failure};
 use crate::options::{
-    Baked, DeviceArguments, Frames, KeepArguments, LightArguments, Mode, ProfileArguments, Size,
+    Baked, DeviceArguments, Frames, ImageArguments, KeepArguments, LightArguments, Mode, ProfileArguments,
+    Size,
 };
 use crate::output;
 use report::Report;
@@ -68,6 +69,8 @@ pub struct Arguments {
     #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
     pub memory: u32,
     #[command(flatten)]
+    images: ImageArguments,
+    #[command(flatten)]
     keep: KeepArguments,
     /// Move light I by X,Y,Z (world units), to see its shadows follow
     #[arg(long, value_name = "I:X,Y,Z", hide_short_help = true)]
@@ -113,6 +116,8 @@ impl Arguments {
         options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
         options.replacing = self.baked.replacing();
         options.profile = self.profile.load_for_trace(&self.trace)?;
+        let folder = self.images.folder(options.profile.as_deref())?;
+        options.images = folder.map(|folder| ImageOptions { folder, waits: true });
         options.memory_bytes = u64::from(self.memory) << 20;
         options.cache = self.keep.cache_for_trace(&self.trace)?;
         options.paint = self.paint.map_or(Paint::Picture, View::paint);

@@ -12,7 +12,7 @@ use clap::Args;
 
 use crate::failure::Failure;
 use crate::libdir;
-use crate::options::{Baked, DeviceArguments, KeepArguments, Mode, ProfileArguments};
+use crate::options::{Baked, DeviceArguments, ImageArguments, KeepArguments, Mode, ProfileArguments};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -32,6 +32,8 @@ pub struct Arguments {
     /// What becomes of light that is baked into the world, where its sources are found
     #[arg(long, value_enum, value_name = "HOW", default_value = "auto", env = "AFTERGLOW_BAKED")]
     baked: Baked,
+    #[command(flatten)]
+    images: ImageArguments,
     #[command(flatten)]
     keep: KeepArguments,
     /// Record what the program calls, in apitrace's format. Further processes of the program record into FILE.1.trace
@@ -64,6 +66,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
                 // A program starts only with a profile that can be read.
                 arguments.profile.load(None)?;
                 command.env("AFTERGLOW_PROFILE", profile(choice)?);
+            }
+            if let Some(folder) = arguments.images.folder(None)? {
+                command.env("AFTERGLOW_REPLACE_IMAGES", folder);
             }
             if let Some(path) = &arguments.record {
                 command.env("AFTERGLOW_RECORD", recording(path)?);

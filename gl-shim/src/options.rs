@@ -1,11 +1,12 @@
 //! Options from the environment, and where log lines go.
 
 use std::io::IsTerminal;
+use std::path::PathBuf;
 use std::sync::{Arc, Once};
 
 use afterglow_engine::EngineOptions;
 use afterglow_gpu::{Faults, GpuOptions};
-use afterglow_render::{Mode, PathtraceOptions};
+use afterglow_render::{ImageOptions, Mode, PathtraceOptions};
 use afterglow_scene::{Profile, ProfileChoice, ProgramCache, Replacing};
 use tracing::level_filters::LevelFilter;
 
@@ -17,7 +18,7 @@ const MOST_SAMPLES: u32 = 65536;
 /// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
 /// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_MEMORY` (MiB of the undrawn world), `AFTERGLOW_KEEP` (worlds are kept
 /// for the next run, which they are unless it says no), `AFTERGLOW_BAKED` (`auto`, `keep` or `replace` baked light),
-/// `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
+/// `AFTERGLOW_REPLACE_IMAGES` (a folder), `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
 ///
 /// For tests: the device is lost at the submissions that `AFTERGLOW_DEBUG_LOSE_DEVICE` lists, counted from 1, and has
 /// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_NO_WINDOWS` it cannot show pictures itself.
@@ -36,6 +37,7 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
     pathtrace.spp = samples.clamp(1, MOST_SAMPLES);
     pathtrace.seed = parsed(variable, "AFTERGLOW_SEED", number).unwrap_or(pathtrace.seed);
     pathtrace.profile = profile(variable);
+    pathtrace.images = images(variable, pathtrace.profile.as_deref());
     if let Some(mebibytes) = parsed(variable, "AFTERGLOW_MEMORY", number) {
         pathtrace.memory_bytes = u64::from(mebibytes) << 20;
     }
@@ -65,6 +67,13 @@ fn profile(variable: &dyn Fn(&str) -> Option<String>) -> Option<Arc<Profile>> {
         tracing::warn!("there is no profile: {error}");
         None
     })
+}
+
+/// Images that take the place of textures: those of the folder that is named, or else of the profile's.
+fn images(variable: &dyn Fn(&str) -> Option<String>, profile: Option<&Profile>) -> Option<ImageOptions> {
+    let named = variable("AFTERGLOW_REPLACE_IMAGES").filter(|folder| !folder.is_empty()).map(PathBuf::from);
+    let folder = named.or_else(|| profile?.images.clone())?;
+    Some(ImageOptions { folder, waits: false })
 }
 
 /// Where this program's worlds are kept.
@@ -163,6 +172,15 @@ mod tests {
         };
         assert_eq!(cache("no"), None);
         assert_eq!(cache("").is_some(), afterglow_gpu::lavapipe::cache_folder().is_some());
+    }
+
+    #[test]
+    fn images_come_from_the_folder_that_is_named() {
+        let options =
+            from_variables(&|name| (name == "AFTERGLOW_REPLACE_IMAGES").then(|| "/a/pack".to_owned()));
+        let images = options.pathtrace.images.unwrap();
+        assert_eq!((images.folder, images.waits), ("/a/pack".into(), false));
+        assert_eq!(from_variables(&|_| None).pathtrace.images, None);
     }
 
     #[test]

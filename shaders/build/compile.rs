@@ -7,9 +7,7 @@ use std::process::Command;
 use std::time::SystemTime;
 
 use crate::Shader;
-
-/// Vulkan 1.2 is the least that the renderer asks for; the optimizer shortens what drivers must read.
-const OPTIONS: [&str; 4] = ["--target-env=vulkan1.2", "-O", "-Werror", "-Iinclude"];
+use crate::options::OPTIONS;
 
 /// Compiles the shader unless its SPIR-V is newer than all that it was made from.
 pub fn compile_if_changed(shader: &Shader) -> Result<(), String> {

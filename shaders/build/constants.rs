@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::Shader;
 
-/// Writes one `pub static NAME: &[u32]` a shader.
+/// Writes one `pub static NAME: &[u32]` a shader, and a list of them all.
 pub fn write(shaders: &[Shader], path: &Path) -> Result<(), String> {
     let mut text = String::new();
     for shader in shaders {
@@ -22,5 +22,11 @@ pub fn write(shaders: &[Shader], path: &Path) -> Result<(), String> {
             shader.spirv
         );
     }
+    text += "/// Every shader: its source's path, and its words.\n#[cfg(feature = \"reload\")]\n";
+    text += "pub static ALL: &[(&str, &[u32])] = &[\n";
+    for shader in shaders {
+        let _ = writeln!(text, "    ({:?}, {}),", shader.source, shader.constant);
+    }
+    text += "];\n";
     std::fs::write(path, text).map_err(|error| format!("could not write {}: {error}", path.display()))
 }

@@ -5,6 +5,7 @@
 
 mod compile;
 mod constants;
+mod options;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -3,6 +3,20 @@
 //! A constant is named after its file: `pass/raster/raster.vert` is [`RASTER_VERT`], `pass/raster/clip.vert`
 //! would be `RASTER_CLIP_VERT`.
 
+#[cfg(feature = "reload")]
+#[path = "../build/options.rs"]
+mod options;
+#[cfg(feature = "reload")]
+pub mod reload;
+
+/// A shader as it is now: without the feature `reload` as it was built.
+#[cfg(not(feature = "reload"))]
+pub fn current(built: &'static [u32]) -> &'static [u32] {
+    built
+}
+#[cfg(feature = "reload")]
+pub use reload::current;
+
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
 
 /// SPIR-V bytes as the words that Vulkan takes. Little-endian, as `glslc` writes them on every host we build on.

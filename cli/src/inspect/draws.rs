@@ -12,6 +12,7 @@ use super::play::{self, Event, Judged, Visitor};
 use super::propose::Proposal;
 use super::rows::FrameRows;
 use super::summary::Summary;
+use super::textures::{TextureRow, TextureWriter};
 use crate::failure::Failure;
 use crate::output;
 
@@ -20,12 +21,15 @@ use crate::output;
 struct Report {
     frames: Vec<FrameRows>,
     summary: Summary,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    textures: Vec<TextureRow>,
 }
 
 struct Inspection<'a> {
     arguments: &'a Arguments,
     painter: Option<Painter<'a>>,
     proposal: Option<Proposal>,
+    textures: Option<TextureWriter<'a>>,
     report: Report,
 }
 
@@ -34,16 +38,21 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let frames = arguments.frames();
     let painter = arguments.paint.as_deref().map(|folder| Painter::new(arguments, folder)).transpose()?;
     let proposal = arguments.propose.as_ref().map(|_| Proposal::default());
-    let mut inspection = Inspection { arguments, painter, proposal, report: Report::default() };
+    let textures = arguments.textures.as_deref().map(TextureWriter::new).transpose()?;
+    let mut inspection = Inspection { arguments, painter, proposal, textures, report: Report::default() };
     let profile = arguments.profile.load_for_trace(&arguments.trace)?;
     let recovery = Recovery::with_profile(profile).with_relighting(Relighting::AtOnce, Replacing::WhereGood);
     let played = play::play(&arguments.trace, frames.end, recovery, &mut inspection);
-    let Inspection { painter, proposal, mut report, .. } = inspection;
+    let Inspection { painter, proposal, textures, mut report, .. } = inspection;
     if let Some(painter) = painter {
         painter.finish()?;
     }
     if let Some((proposal, path)) = proposal.zip(arguments.propose.as_ref()) {
         proposal.write(&arguments.trace, path)?;
+    }
+    report.textures = textures.map(TextureWriter::finish).unwrap_or_default();
+    if !arguments.prints_json() && arguments.textures.is_some() {
+        output::print(|out| report.textures.iter().try_for_each(|row| row.write(out)))?;
     }
     report.summary.finish();
     if !arguments.prints_json() && (arguments.draws || arguments.classes) {
@@ -78,6 +87,11 @@ impl Inspection<'_> {
     fn shown(&mut self, index: u64, judged: Judged, recovery: &Recovery) -> Result<(), Failure> {
         let Judged { frame, scene, time, .. } = judged;
         self.report.summary.add(&scene, time);
+        if let Some(textures) = &mut self.textures {
+            textures.learn(&frame);
+            textures.write(index, &frame, recovery)?;
+            textures.forget(&frame);
+        }
         if let Some(proposal) = &mut self.proposal {
             proposal.add(&frame, &scene, recovery);
         }
@@ -97,6 +111,10 @@ impl Inspection<'_> {
     }
 
     fn unseen(&mut self, frame: Frame) {
+        if let Some(textures) = &mut self.textures {
+            textures.learn(&frame);
+            textures.forget(&frame);
+        }
         if let Some(painter) = &mut self.painter {
             painter.skip(frame);
         }

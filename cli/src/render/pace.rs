@@ -53,7 +53,7 @@ mod tests {
 
     #[test]
     fn submissions_take_about_what_they_should() {
-        assert_eq!(submissions(0.1), [1, 4, 4, 4, 4, 4, 4, 4]);
+        assert_eq!(submissions(0.15), [1, 3, 3, 3, 3, 3, 3, 3]);
         assert_eq!(submissions(7.0), [1; 8]);
         assert_eq!(submissions(1e-9)[..6], [1, 4, 16, 64, 256, 1024]);
     }

@@ -15,6 +15,7 @@ pub mod intersect;
 pub mod layout;
 mod optimise;
 mod refit;
+pub mod room;
 mod tlas;
 pub mod traverse;
 

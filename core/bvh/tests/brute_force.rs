@@ -6,6 +6,7 @@ mod support;
 
 use afterglow_bvh::intersect::{RayShear, TriangleHit, intersect_sphere, intersect_triangle};
 use afterglow_bvh::layout::{FLAG_ALPHA_TESTED, FLAG_TWO_SIDED, Sphere, Triangle};
+use afterglow_bvh::room::room;
 use afterglow_bvh::traverse::{in_object, inverse_of};
 use afterglow_bvh::{
     BlasInput, Hit, IDENTITY, Instance, Quality, Query, Ray, TriangleAttributes, build_blas, build_blas_with,
@@ -234,7 +235,7 @@ proptest! {
 
 #[test]
 fn no_ray_leaves_a_closed_room() {
-    let (positions, indices) = support::room::room(24);
+    let (positions, indices) = room(24);
     let blas = build_blas(&positions, &indices, Quality::Good).unwrap();
     let tlas = build_tlas(&[instance(&blas, 16)]).unwrap();
     let world = World { tlas, blases: [(16, blas)].into() };

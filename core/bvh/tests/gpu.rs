@@ -7,6 +7,7 @@ mod gpu;
 mod support;
 
 use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
+use afterglow_bvh::room::room;
 use afterglow_bvh::{
     Blas, BlasInput, Hit, IDENTITY, Instance, Quality, Query, Ray, TriangleAttributes, build_blas,
     build_blas_with, build_tlas,
@@ -80,7 +81,7 @@ fn check(blases: Vec<Blas>, place: impl Fn(&[(u64, &Blas)]) -> Vec<Instance>) {
     let rays = rays(4000);
     let records: Vec<RayRecord> = rays.iter().map(record).collect();
     for (mask, any_hit) in [(0xff, false), (0x1, false), (0xff, true)] {
-        let (answers, _) = tracer.trace(top.address(), &records, Search { mask, any_hit }, 0);
+        let answers = tracer.trace(top.address(), &records, Search { mask, any_hit });
         let mut differing = 0;
         let mut found = 0;
         for (answer, ray) in answers.iter().zip(&rays) {
@@ -97,7 +98,7 @@ fn check(blases: Vec<Blas>, place: impl Fn(&[(u64, &Blas)]) -> Vec<Instance>) {
 
 #[test]
 fn one_identity_instance() {
-    let (positions, indices) = support::room::room(12);
+    let (positions, indices) = room(12);
     let blas = build_blas(&positions, &indices, Quality::Good).unwrap();
     check(vec![blas], |blases| {
         let (address, blas) = blases[0];
@@ -115,7 +116,7 @@ fn one_identity_instance() {
 /// Spheres hang in the room, some cut by its walls and by one another.
 #[test]
 fn spheres_among_triangles() {
-    let (positions, indices) = support::room::room(6);
+    let (positions, indices) = room(6);
     let spheres: Vec<[f32; 4]> = (0..150)
         .map(|i| {
             let at = Vec3::new(spread(i, 0), spread(i, 1), spread(i, 2)) * 18.0 - 9.0;
@@ -152,7 +153,7 @@ fn spheres_among_triangles() {
 
 #[test]
 fn many_instances_masks_and_alpha() {
-    let (positions, indices) = support::room::room(4);
+    let (positions, indices) = room(4);
     let small = build_blas(&positions, &indices, Quality::Fast).unwrap();
     let empty = build_blas(&[], &[], Quality::Fast).unwrap();
     check(vec![small, empty], |blases| {

@@ -55,7 +55,7 @@ pub fn combine_standard_errors(a: &Image, b: &Image) -> Result<Image, MetricsErr
 }
 
 /// Compares linear pictures block by block; `standard_error` is that of the difference, a pixel and channel. Pixels whose standard error is
-/// NaN or infinite are left out.
+/// NaN or infinite are left out, and those that are not `kept`; so are blocks without any other.
 ///
 /// # Errors
 /// If the sizes differ or a picture is not linear.
@@ -63,6 +63,7 @@ pub fn compare_blocks(
     image: &Image,
     reference: &Image,
     standard_error: &Image,
+    kept: Option<&[bool]>,
 ) -> Result<BlockReport, MetricsError> {
     reference.expect_same_size(image, "the picture")?;
     reference.expect_same_size(standard_error, "the standard error")?;
@@ -73,9 +74,9 @@ pub fn compare_blocks(
     let rows = (0..image.height()).step_by(BLOCK_SIDE);
     let corners = rows.flat_map(|y| (0..image.width()).step_by(BLOCK_SIDE).map(move |x| (x, y)));
     let blocks: Vec<_> = corners
-        .map(|(x, y)| {
-            let sums = Sums::of_block(image, reference, standard_error, x, y);
-            (x, y, sums.sigmas())
+        .filter_map(|(x, y)| {
+            let sums = Sums::of_block(image, reference, standard_error, kept, x, y);
+            (sums.count > 0 || sums.non_finite).then(|| (x, y, sums.sigmas()))
         })
         .collect();
     Ok(report(&blocks))
@@ -87,7 +88,7 @@ type Sigmas = Option<[f64; 4]>;
 fn report(blocks: &[(usize, usize, Sigmas)]) -> BlockReport {
     let share = |quantity: usize, limit: f64| {
         let beyond = |sigmas: &Sigmas| sigmas.is_none_or(|s| s[quantity] > limit);
-        blocks.iter().filter(|(.., s)| beyond(s)).count() as f64 / blocks.len() as f64
+        blocks.iter().filter(|(.., s)| beyond(s)).count() as f64 / blocks.len().max(1) as f64
     };
     let luminance_sigmas = blocks.iter().filter_map(|&(x, y, sigmas)| {
         let sigmas = sigmas?[0];
@@ -111,13 +112,25 @@ struct Sums {
     reference: [f64; 4],
     variance: [f64; 4],
     non_finite: bool,
+    /// Pixels that count.
+    count: usize,
 }
 
 impl Sums {
-    fn of_block(image: &Image, reference: &Image, error: &Image, x: usize, y: usize) -> Self {
+    fn of_block(
+        image: &Image,
+        reference: &Image,
+        error: &Image,
+        kept: Option<&[bool]>,
+        x: usize,
+        y: usize,
+    ) -> Self {
         let mut sums = Self::default();
         for row in y..(y + BLOCK_SIDE).min(image.height()) {
             for column in x..(x + BLOCK_SIDE).min(image.width()) {
+                if kept.is_some_and(|kept| !kept[row * image.width() + column]) {
+                    continue;
+                }
                 let [a, b, error] = [image, reference, error].map(|i| i.pixel(column, row));
                 if !(is_finite(a) && is_finite(b)) {
                     sums.non_finite = true;
@@ -130,6 +143,7 @@ impl Sums {
     }
 
     fn add(&mut self, image: [f64; 4], reference: [f64; 4], error: [f64; 4]) {
+        self.count += 1;
         for i in 0..4 {
             self.difference[i] += image[i] - reference[i];
             self.reference[i] += reference[i].abs();
@@ -178,7 +192,7 @@ mod tests {
                 image.pixels_mut()[y * 32 + x] = [1.05; 3];
             }
         }
-        let report = compare_blocks(&image, &reference, &error).unwrap();
+        let report = compare_blocks(&image, &reference, &error, None).unwrap();
         assert_eq!(report.count, 2);
         assert_eq!((report.beyond_4, report.beyond_6), (0.5, 0.0));
         assert_eq!(report.channels_beyond_4, [0.5; 3]);
@@ -191,7 +205,7 @@ mod tests {
     fn one_channel_alone_may_be_beyond() {
         let reference = constant(16, 16, 1.0);
         let image = Image::from_fn(16, 16, Encoding::Linear, |_, _| [1.0, 1.0, 1.07]).unwrap();
-        let report = compare_blocks(&image, &reference, &constant(16, 16, 0.16)).unwrap();
+        let report = compare_blocks(&image, &reference, &constant(16, 16, 0.16), None).unwrap();
         assert_eq!(report.beyond_4, 0.0);
         assert_eq!(report.channels_beyond_6, [0.0, 0.0, 1.0]);
     }
@@ -201,7 +215,7 @@ mod tests {
         let reference = constant(17, 33, 1.0);
         let mut image = reference.clone();
         image.pixels_mut()[32 * 17 + 16] = [1.5; 3];
-        let report = compare_blocks(&image, &reference, &constant(17, 33, 0.1)).unwrap();
+        let report = compare_blocks(&image, &reference, &constant(17, 33, 0.1), None).unwrap();
         assert_eq!(report.count, 6);
         // One pixel is the whole last block: 0.5 of 0.1.
         let worst = report.worst.unwrap();
@@ -212,8 +226,9 @@ mod tests {
     #[test]
     fn without_noise_only_rounding_is_forgiven() {
         let reference = constant(16, 16, 1.0);
-        let of =
-            |value| compare_blocks(&constant(16, 16, value), &reference, &constant(16, 16, 0.0)).unwrap();
+        let of = |value| {
+            compare_blocks(&constant(16, 16, value), &reference, &constant(16, 16, 0.0), None).unwrap()
+        };
         assert_eq!(of(1.0 + 3e-5).beyond_4, 0.0);
         assert_eq!(of(1.001).beyond_6, 1.0);
     }
@@ -225,7 +240,7 @@ mod tests {
         image.pixels_mut()[0][1] = f32::NAN;
         image.pixels_mut()[20] = [1e9; 3];
         error.pixels_mut()[20] = [f32::INFINITY; 3];
-        let report = compare_blocks(&image, &reference, &error).unwrap();
+        let report = compare_blocks(&image, &reference, &error, None).unwrap();
         assert_eq!((report.non_finite, report.beyond_6), (1, 0.5));
     }
 

@@ -1,11 +1,14 @@
 //! All metrics of a pair of pictures at once.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use crate::blocks::{BlockReport, compare_blocks};
 use crate::error::MetricsError;
 use crate::flip::flip;
 use crate::image::{Encoding, Image};
+use crate::noise::Noise;
 use crate::pixelwise::{luminance_ratio, psnr, relmse, rmse};
 use crate::ssim::ssim;
 
@@ -24,11 +27,15 @@ pub struct Comparison {
     pub non_finite: u64,
     pub non_finite_reference: u64,
     pub non_finite_standard_error: u64,
+    /// Pixels that are not in `relmse`, `rmse`, their floors, `luminance_ratio` and blocks ([`Noise::most_of_reference`]).
+    pub left_out: u64,
     /// Mean of (a - b)^2 / (b^2 + 0.01).
     pub relmse: Option<f64>,
     pub rmse: Option<f64>,
     /// Root of the mean square of the standard errors: the `rmse` of a picture without any error.
     pub rmse_floor: Option<f64>,
+    /// The part of it that is the reference's.
+    pub rmse_floor_reference: Option<f64>,
     /// Of display values, in dB; none also for equal pictures, where it is infinite.
     pub psnr: Option<f64>,
     /// Of display values; none also for pictures below 11 pixels a side.
@@ -63,8 +70,24 @@ pub fn compare(
     reference: &Image,
     standard_error: Option<&Image>,
 ) -> Result<Comparison, MetricsError> {
+    compare_noisy(image, reference, &Noise { of_picture: standard_error, ..Noise::default() })
+}
+
+/// As [`compare`], with what is known of the noise of each.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_noisy(
+    image: &Image,
+    reference: &Image,
+    noise: &Noise<'_>,
+) -> Result<Comparison, MetricsError> {
     reference.expect_same_size(image, "the picture")?;
-    let blocks = standard_error.map(|error| compare_blocks(image, reference, error)).transpose()?;
+    let (standard_error, kept) = (noise.combined()?, noise.kept(reference)?);
+    let standard_error = standard_error.as_ref();
+    let kept = kept.as_deref();
+    let blocks = standard_error.map(|error| compare_blocks(image, reference, error, kept)).transpose()?;
+    let floor = |error: &Image| if_finite(root_mean_square(&of_kept(error, kept)));
     let flip_map = flip(image, reference)?;
     let (shown, shown_reference) = (image.to_srgb(), reference.to_srgb());
     let both_linear = image.encoding() == Encoding::Linear && reference.encoding() == Encoding::Linear;
@@ -73,25 +96,37 @@ pub fn compare(
     // Finite numbers may come of infinite light: display values clamp it to white, and a ratio over it is 0.
     let all_finite = non_finite + non_finite_reference == 0;
     let sound = |value: f64| if_finite(value).filter(|_| all_finite);
+    let (lit, lit_reference) = (of_kept(image, kept), of_kept(reference, kept));
+    let (a, b) = (of_kept(a, kept), of_kept(b, kept));
     Ok(Comparison {
         width: image.width(),
         height: image.height(),
         encoding: a.encoding(),
+        left_out: kept.map_or(0, |kept| kept.iter().filter(|kept| !**kept).count() as u64),
         non_finite,
         non_finite_reference,
         non_finite_standard_error: standard_error.map_or(0, Image::non_finite_count),
-        relmse: sound(relmse(a, b)?),
-        rmse: sound(rmse(a, b)?),
-        rmse_floor: standard_error.and_then(|error| if_finite(root_mean_square(error))),
+        relmse: sound(relmse(&a, &b)?),
+        rmse: sound(rmse(&a, &b)?),
+        rmse_floor: standard_error.and_then(floor),
+        rmse_floor_reference: noise.of_reference.and_then(floor),
         psnr: sound(psnr(&shown, &shown_reference)?),
         ssim: optional_ssim(&shown, &shown_reference)?.and_then(sound),
         flip: flip_map.mean(),
         flip_max: flip_map.max(),
-        luminance_ratio: sound(luminance_ratio(image, reference)?),
+        luminance_ratio: sound(luminance_ratio(&lit, &lit_reference)?),
         blocks_beyond_4: blocks.as_ref().map(|b| b.beyond_4),
         blocks_beyond_6: blocks.as_ref().map(|b| b.beyond_6),
         blocks,
     })
+}
+
+/// A picture without the pixels that are left out.
+fn of_kept<'a>(image: &'a Image, kept: Option<&[bool]>) -> Cow<'a, Image> {
+    match kept {
+        Some(kept) => Cow::Owned(image.only(kept)),
+        None => Cow::Borrowed(image),
+    }
 }
 
 fn if_finite(value: f64) -> Option<f64> {
@@ -155,6 +190,21 @@ mod tests {
         assert_eq!(result.flip_max, 1.0);
         assert!(result.flip < 0.1);
         assert_eq!(result.blocks.unwrap().non_finite, 1);
+    }
+
+    #[test]
+    fn pixels_that_the_reference_knows_badly_do_not_count() {
+        let reference = synthetic::hdr();
+        let mut image = reference.clone();
+        let mut error =
+            Image::from_fn(reference.width(), reference.height(), Encoding::Linear, |_, _| [0.0; 3]).unwrap();
+        image.pixels_mut()[5] = [1e3; 3];
+        error.pixels_mut()[5] = [1e2; 3];
+        let noise = Noise { of_reference: Some(&error), most_of_reference: Some(0.02), ..Noise::default() };
+        let result = compare_noisy(&image, &reference, &noise).unwrap();
+        assert_eq!((result.left_out, result.rmse, result.luminance_ratio), (1, Some(0.0), Some(1.0)));
+        assert_eq!((result.blocks_beyond_4, result.rmse_floor_reference), (Some(0.0), Some(0.0)));
+        assert!(result.flip_max > 0.5);
     }
 
     #[test]

@@ -107,6 +107,13 @@ impl Image {
         self.pixels[y * self.width + x]
     }
 
+    /// Some of the pixels, as one row of any length: for what does not ask where pixels are.
+    pub(crate) fn only(&self, kept: &[bool]) -> Self {
+        let pixels = self.pixels.iter().zip(kept).filter(|(_, kept)| **kept).map(|(pixel, _)| *pixel);
+        let pixels: Vec<_> = pixels.collect();
+        Self { width: pixels.len(), height: 1, encoding: self.encoding, pixels }
+    }
+
     /// The picture as linear light; borrowed if it is already.
     pub fn to_linear(&self) -> Cow<'_, Image> {
         match self.encoding {

@@ -58,6 +58,25 @@ shared_struct! {
         /// Object-space distance along an axis, at most, from where rays are taken relative to in the mesh that it is part of;
         /// infinite if that is the object's origin.
         pub reach: f32,
+        /// How its maps are to be read: see `MapWord`.
+        pub maps: u32,
+        pub padding: u32,
+    }
+}
+
+packed_words! {
+    /// How a surface's maps are to be read: all fields are 0 for those that the program names.
+    pub struct MapWord: "maps", 1 {
+        word 0 {
+            /// The texture unit whose coordinates they are read with.
+            unit: 2,
+            /// 1 if how much is metal is in the normal map's alpha, and not in the blue of `metallic_roughness_map`.
+            metal_in_normal: 1,
+            /// 1 if roughness is in the emission map's alpha, and not in the green of `metallic_roughness_map`.
+            roughness_in_emission: 1,
+            /// 1 if the normal map has x and y only.
+            normal_of_two: 1,
+        }
     }
 }
 
@@ -286,6 +305,8 @@ shared_struct! {
         pub weight: f32,
         /// How many candidates it was kept of.
         pub count: f32,
+        /// What it brings unshadowed, before the weight.
+        pub brings: f32,
     }
 }
 

@@ -1,9 +1,11 @@
 //! A frame's texture bindings as push constants name them.
 
-use afterglow_gl::frame::{BaseFormat, Frame, TEXTURE_UNITS, TextureBinding};
+use afterglow_gl::frame::{BaseFormat, Frame, Sampler, TEXTURE_UNITS, TextureBinding};
 use afterglow_gpu::{BindlessTable, GpuError};
+use afterglow_images::Role;
 use afterglow_records::DrawPush;
 
+use crate::replacements::Replacements;
 use crate::samplers::{Samplers, shader_clamps};
 use crate::textures::Textures;
 
@@ -30,6 +32,8 @@ pub(crate) struct ResolvedBindings {
 pub(crate) struct Lookup<'a> {
     pub(crate) frame: &'a Frame,
     pub(crate) textures: &'a Textures,
+    /// What takes the place of textures.
+    pub(crate) replacements: Option<&'a Replacements>,
     pub(crate) samplers: &'a mut Samplers,
     pub(crate) table: &'a BindlessTable,
 }
@@ -92,12 +96,46 @@ impl ResolvedBindings {
     }
 }
 
+impl Lookup<'_> {
+    /// The image and the sampler that a binding comes to, and the base format of the program's texture.
+    fn find(&self, binding: &TextureBinding, role: Role) -> (u32, Sampler, BaseFormat) {
+        let texture = self.textures.get(binding.image);
+        let base_format = texture.map_or(BaseFormat::Rgba, |texture| texture.shape.base_format);
+        match self.replacement(binding, role) {
+            Some(index) => (index, mipmapped(&binding.sampler), base_format),
+            None => (texture.map_or(0, |texture| texture.index), binding.sampler, base_format),
+        }
+    }
+
+    /// The image that replaces a texture in this role.
+    fn replacement(&self, binding: &TextureBinding, role: Role) -> Option<u32> {
+        let found = self.replacements?.get(binding.image, role)?;
+        Some(self.textures.get(found.key)?.index)
+    }
+}
+
+/// As a texture is sampled, but with all mipmaps: pictures have more texels than what they replace.
+fn mipmapped(sampler: &Sampler) -> Sampler {
+    Sampler { mip_linear: Some(true), min_lod: (-1000.0).into(), max_lod: 1000.0.into(), ..*sampler }
+}
+
 /// The word of an image that no unit samples.
 pub(crate) fn image_word(lookup: &mut Lookup<'_>, binding: &TextureBinding) -> Result<u32, GpuError> {
-    let texture = lookup.textures.get(binding.image);
-    let base_format = texture.map_or(BaseFormat::Rgba, |texture| texture.shape.base_format);
-    let sampler = lookup.samplers.index(lookup.table, &binding.sampler, base_format, 0.0)?;
-    Ok(packed(texture.map_or(0, |texture| texture.index), sampler))
+    let (index, sampler, base_format) = lookup.find(binding, Role::Color);
+    let sampler = lookup.samplers.index(lookup.table, &sampler, base_format, 0.0)?;
+    Ok(packed(index, sampler))
+}
+
+/// The word of the image that replaces a texture in a role; none if nothing does.
+pub(crate) fn replacement_word(
+    lookup: &mut Lookup<'_>,
+    binding: &TextureBinding,
+    role: Role,
+) -> Result<Option<u32>, GpuError> {
+    let Some(index) = lookup.replacement(binding, role) else { return Ok(None) };
+    let sampler = mipmapped(&binding.sampler);
+    let sampler = lookup.samplers.index(lookup.table, &sampler, BaseFormat::Rgba, 0.0)?;
+    Ok(Some(packed(index, sampler)))
 }
 
 fn resolve(lookup: &mut Lookup<'_>, index: u32) -> Result<Resolved, GpuError> {
@@ -106,12 +144,11 @@ fn resolve(lookup: &mut Lookup<'_>, index: u32) -> Result<Resolved, GpuError> {
     let bindings = lookup.frame.bindings.get(index as usize);
     for (unit, binding) in bindings.into_iter().flatten().enumerate() {
         let Some(binding) = binding else { continue };
-        let texture = lookup.textures.get(binding.image);
-        let base_format = texture.map_or(BaseFormat::Rgba, |texture| texture.shape.base_format);
-        let sampler = lookup.samplers.index(lookup.table, &binding.sampler, base_format, 0.0)?;
-        resolved.textures[unit] = packed(texture.map_or(0, |texture| texture.index), sampler);
+        let (index, sampler, base_format) = lookup.find(binding, Role::Color);
+        resolved.clamps |= shader_clamps(&sampler) << (3 * unit);
+        let sampler = lookup.samplers.index(lookup.table, &sampler, base_format, 0.0)?;
+        resolved.textures[unit] = packed(index, sampler);
         resolved.base_formats[unit] = base_format;
-        resolved.clamps |= shader_clamps(&binding.sampler) << (3 * unit);
     }
     Ok(resolved)
 }
@@ -130,7 +167,8 @@ fn biased(
         return Ok(word);
     };
     let format = resolved.base_formats[unit];
-    let sampler = lookup.samplers.index(lookup.table, &binding.sampler, format, bias)?;
+    let (_, sampler, _) = lookup.find(&binding, Role::Color);
+    let sampler = lookup.samplers.index(lookup.table, &sampler, format, bias)?;
     Ok(packed(word & ((1 << IMAGE_BITS) - 1), sampler))
 }
 

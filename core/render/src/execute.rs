@@ -16,6 +16,7 @@ use crate::pathtrace::{self, PreparedTrace, TraceContext, TraceInput, Tracing, U
 use crate::plan::{Plan, Planner, Step};
 use crate::rectangles::PixelStore;
 use crate::renderer::Renderer;
+use crate::replacements::Replacements;
 use crate::report::{FrameReport, SceneReport};
 use crate::retained::RangeCopy;
 use crate::schedule::{Lasting, LastingBuffer, Schedule, TracedViews, Work, schedule};
@@ -54,12 +55,15 @@ impl Renderer {
         question: Option<Question>,
         understood: Option<&Understood>,
     ) -> Result<Option<Readback>, RenderError> {
+        #[cfg(feature = "reload")]
+        self.reload_shaders();
         self.collect(self.current)?;
         self.resize(frame)?;
         self.slots[self.current].arena.reset();
         self.ranges.begin_frame();
         self.raster.begin_frame(frame);
         let tracing = understood.and_then(|understood| understood.tracing.as_ref());
+        self.replace_textures(frame);
         let prepared = self.prepare(frame, question, tracing)?;
         let recorded = self.record(frame, &prepared);
         if recorded.is_err() {
@@ -76,7 +80,18 @@ impl Renderer {
         for image in &prepared.plan.dropped {
             self.textures.remove(&self.table, *image);
         }
+        if let Some(replacements) = &mut self.replacements {
+            replacements.end_frame(&prepared.plan.dropped);
+        }
         Ok(prepared.readback)
+    }
+
+    /// Finds what replaces the textures of a frame.
+    fn replace_textures(&mut self, frame: &Frame) {
+        let (Some(replacements), Some(tracer)) = (&mut self.replacements, &mut self.tracer) else { return };
+        if replacements.begin_frame(frame, &tracer.recovery) {
+            tracer.forget();
+        }
     }
 
     /// Plans the frame, and uploads what it needs.
@@ -94,9 +109,11 @@ impl Renderer {
             arena,
             size,
             views: tracing.map_or(&[], |tracing| &tracing.arrangement.views),
+            arrived: self.replacements.as_mut().map(Replacements::take_arrived).unwrap_or_default(),
             operations: tracing.map_or(frame.operations.len(), |tracing| tracing.rasterized),
         };
-        let plan = planner.plan(frame)?;
+        let mut plan = planner.plan(frame)?;
+        plan.dropped.extend(self.replacements.iter_mut().flat_map(Replacements::take_dropped));
         self.reserve(frame, &plan)?;
         let arena = &mut self.slots[self.current].arena;
         let store = PixelStore {
@@ -171,6 +188,7 @@ impl Renderer {
             scratch: &self.scratch,
             raster: &mut self.raster,
             textures: &self.textures,
+            replacements: self.replacements.as_ref(),
             table: &self.table,
             arena: &mut self.slots[self.current].arena,
         };
@@ -299,6 +317,7 @@ impl Renderer {
                         frame,
                         target,
                         textures,
+                        replacements: self.replacements.as_ref(),
                         table: &self.table,
                         address: prepared.address,
                         draws: &self.scratch.commands,

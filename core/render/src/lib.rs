@@ -19,7 +19,10 @@ mod pipelines;
 mod plan;
 mod queries;
 mod rectangles;
+#[cfg(feature = "reload")]
+mod reload;
 mod renderer;
+mod replacements;
 mod report;
 mod retained;
 mod samplers;
@@ -42,7 +45,9 @@ pub use afterglow_frame_graph::CulledReport;
 pub use afterglow_records::Paint;
 pub use drawables::Carried;
 pub use error::RenderError;
-pub use pathtrace::{Backend, Displaced, LightChoice, Mode, PathtraceOptions, Radiance, Target, TraceCounts};
+pub use pathtrace::{
+    Backend, Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Radiance, Target, TraceCounts,
+};
 pub use renderer::{RenderOptions, Renderer};
 pub use report::{FrameReport, PassReport, SceneReport};
 pub use scale::Scale;

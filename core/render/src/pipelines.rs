@@ -101,6 +101,14 @@ impl Pipelines {
         Ok(pipeline)
     }
 
+    /// Makes everything of the shaders as they are now. What there was stays if that fails.
+    #[cfg(feature = "reload")]
+    pub(crate) fn reload(&mut self) -> Result<(), GpuError> {
+        self.modules = Modules::new(&self.gpu)?;
+        self.retire();
+        Ok(())
+    }
+
     /// Pipelines made so far.
     pub(crate) fn len(&self) -> usize {
         self.pipelines.len()
@@ -220,8 +228,9 @@ impl Pipelines {
     }
 }
 
-impl Drop for Pipelines {
-    fn drop(&mut self) {
+impl Pipelines {
+    /// Gives all pipelines up. Commands in flight may use them.
+    fn retire(&mut self) {
         let pipelines: Vec<_> = self.pipelines.drain().map(|(_, pipeline)| pipeline).collect();
         self.gpu.retire(move |device| {
             for pipeline in pipelines {
@@ -229,6 +238,12 @@ impl Drop for Pipelines {
                 unsafe { device.destroy_pipeline(pipeline, None) };
             }
         });
+    }
+}
+
+impl Drop for Pipelines {
+    fn drop(&mut self) {
+        self.retire();
     }
 }
 
@@ -245,19 +260,20 @@ impl Visibility {
 impl Modules {
     fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         use afterglow_shaders as shaders;
+        let module = |name, spirv| gpu.create_shader_module(name, shaders::current(spirv));
         Ok(Self {
-            draw: gpu.create_shader_module("raster.vert", shaders::RASTER_VERT)?,
-            draw_clipped: gpu.create_shader_module("clip.vert", shaders::RASTER_CLIP_VERT)?,
-            draw_fragment: gpu.create_shader_module("raster.frag", shaders::RASTER_FRAG)?,
+            draw: module("raster.vert", shaders::RASTER_VERT)?,
+            draw_clipped: module("clip.vert", shaders::RASTER_CLIP_VERT)?,
+            draw_fragment: module("raster.frag", shaders::RASTER_FRAG)?,
             visibility: [
-                gpu.create_shader_module("visibility.vert", shaders::VISIBILITY_VERT)?,
-                gpu.create_shader_module("visibility clip.vert", shaders::VISIBILITY_CLIP_VERT)?,
+                module("visibility.vert", shaders::VISIBILITY_VERT)?,
+                module("visibility clip.vert", shaders::VISIBILITY_CLIP_VERT)?,
             ],
-            visibility_fragment: gpu.create_shader_module("visibility.frag", shaders::VISIBILITY_FRAG)?,
-            pixels: gpu.create_shader_module("pixels.vert", shaders::PIXELS_VERT)?,
-            pixels_fragment: gpu.create_shader_module("pixels.frag", shaders::PIXELS_FRAG)?,
-            clear: gpu.create_shader_module("clear.vert", shaders::CLEAR_VERT)?,
-            clear_fragment: gpu.create_shader_module("clear.frag", shaders::CLEAR_FRAG)?,
+            visibility_fragment: module("visibility.frag", shaders::VISIBILITY_FRAG)?,
+            pixels: module("pixels.vert", shaders::PIXELS_VERT)?,
+            pixels_fragment: module("pixels.frag", shaders::PIXELS_FRAG)?,
+            clear: module("clear.vert", shaders::CLEAR_VERT)?,
+            clear_fragment: module("clear.frag", shaders::CLEAR_FRAG)?,
         })
     }
 }

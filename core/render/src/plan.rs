@@ -10,6 +10,7 @@ use afterglow_gl::frame::{
 };
 use afterglow_gpu::{BindlessTable, GpuError, vk};
 
+use crate::replacements::Arrived;
 use crate::sorter::Sorter;
 use crate::textures::{TEXEL_BYTES, Texture, Textures, texel_count};
 use crate::uploads::{Upload, UploadArena};
@@ -117,6 +118,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) size: [u32; 2],
     /// Operations that are views to be traced.
     pub(crate) views: &'a [Range<usize>],
+    /// Pictures that replace textures from this frame on.
+    pub(crate) arrived: Vec<Arrived>,
     /// Operations that come to the device; later ones are draws for rays alone.
     pub(crate) operations: usize,
 }
@@ -125,6 +128,9 @@ impl Planner<'_> {
     /// Makes the frame's images, stages its texels, and sorts its operations.
     pub(crate) fn plan(mut self, frame: &Frame) -> Result<Plan, GpuError> {
         let mut sorter = Sorter::default();
+        for arrived in std::mem::take(&mut self.arrived) {
+            self.picture(&mut sorter, &arrived)?;
+        }
         for (index, operation) in frame.operations.iter().enumerate().take(self.operations) {
             sorter.enter(self.views.iter().position(|view| view.contains(&index)));
             self.operation(&mut sorter, frame, index, operation)?;
@@ -176,6 +182,24 @@ impl Planner<'_> {
     fn define(&mut self, sorter: &mut Sorter, image: ImageKey, shape: &ImageShape) -> Result<(), GpuError> {
         if self.textures.define(self.table, image, shape)? {
             sorter.define(image);
+        }
+        Ok(())
+    }
+
+    /// Makes the image of a picture, and stages its texels.
+    fn picture(&mut self, sorter: &mut Sorter, arrived: &Arrived) -> Result<(), GpuError> {
+        let Arrived { key, picture, swizzle } = arrived;
+        if !self.textures.define_picture(self.table, *key, picture, *swizzle)? {
+            return Ok(());
+        }
+        sorter.define(*key);
+        for (level, texels) in (0..).zip(&picture.levels) {
+            let extent = [picture.width, picture.height].map(|side| (side >> level).max(1));
+            let extent = [extent[0], extent[1], 1];
+            let region = Region { level, layer: 0, offset: [0; 3], extent };
+            sorter.fill(*key, &region);
+            let from = self.arena.push(texels)?;
+            sorter.transfer(true, Transfer::Upload { image: *key, region, from });
         }
         Ok(())
     }

@@ -15,6 +15,7 @@ use crate::passes::raster::RasterState;
 use crate::passes::readback::{Asked, Question};
 use crate::pathtrace::{Mode, PathtraceOptions, Tracer};
 use crate::rectangles::Rectangles;
+use crate::replacements::Replacements;
 use crate::report::FrameReport;
 use crate::retained::RetainedRanges;
 use crate::slot::Slot;
@@ -58,6 +59,11 @@ pub struct Renderer {
     pub(crate) report: FrameReport,
     /// Path tracing; none in `raster` mode.
     pub(crate) tracer: Option<Tracer>,
+    /// What takes the place of textures while frames are traced.
+    pub(crate) replacements: Option<Replacements>,
+    /// Looks after shaders; none if nobody has asked for it.
+    #[cfg(feature = "reload")]
+    pub(crate) reloader: Option<afterglow_shaders::reload::Reloader>,
     /// The number of the selected drawable; 0 before one was selected.
     pub(crate) drawable: u64,
     /// The other drawables.
@@ -91,6 +97,9 @@ impl Renderer {
             swaps: 0,
             report: FrameReport::default(),
             tracer: None,
+            replacements: None,
+            #[cfg(feature = "reload")]
+            reloader: afterglow_shaders::reload::Reloader::from_environment(),
             drawable: 0,
             seats: HashMap::new(),
             recycled: Vec::new(),
@@ -149,6 +158,9 @@ impl Renderer {
             (Mode::Pathtrace | Mode::Reference, None) => {
                 self.tracer = Tracer::new(&self.gpu, &self.table, mode, options.clone())?;
             }
+        }
+        if let (Some(images), None, Some(_)) = (&options.images, &self.replacements, &self.tracer) {
+            self.replacements = Replacements::open(&self.gpu, images);
         }
         Ok(())
     }
@@ -283,6 +295,9 @@ impl Renderer {
         let waiting = self.seats.values_mut().filter_map(|seat| seat.tracer.take());
         for buffers in waiting.chain(self.tracer.take()).filter_map(|tracer| tracer.buffers) {
             buffers.release(&self.table);
+        }
+        for image in self.replacements.take().iter().flat_map(Replacements::images) {
+            self.textures.remove(&self.table, image);
         }
     }
 

@@ -7,6 +7,7 @@ use afterglow_gl::frame::{BaseFormat, Dimension, ImageKey, ImageShape, Region, T
 use afterglow_gpu::{
     Access, BindlessKind, BindlessTable, Gpu, GpuError, Image, ImageDesc, image_barrier, vk,
 };
+use afterglow_images::{Format, Picture};
 use hashbrown::HashMap;
 
 /// Bytes of a texel, whatever its format.
@@ -62,6 +63,35 @@ impl Textures {
             Err(error) if error.is_device_lost() => Err(error),
             Err(error) => {
                 tracing::warn!(?shape, "a texture could not be made: {error}");
+                Ok(false)
+            }
+        }
+    }
+
+    /// Makes the image of a picture that replaces a texture of this base format, its contents and layout undefined. Says
+    /// whether the device could.
+    pub(crate) fn define_picture(
+        &mut self,
+        table: &BindlessTable,
+        key: ImageKey,
+        picture: &Picture,
+        swizzle: [vk::ComponentSwizzle; 4],
+    ) -> Result<bool, GpuError> {
+        let shape = ImageShape {
+            width: picture.width,
+            height: picture.height,
+            levels: picture.levels.len() as u32,
+            ..missing_shape(Dimension::D2)
+        };
+        let desc = ImageDesc { format: picture_format(picture.format), ..image_desc(&shape) };
+        match create_of(&self.gpu, table, &shape, &desc, swizzle) {
+            Ok(texture) => {
+                self.images.insert(key, texture);
+                Ok(true)
+            }
+            Err(error) if error.is_device_lost() => Err(error),
+            Err(error) => {
+                tracing::warn!(?shape, "an image could not be made: {error}");
                 Ok(false)
             }
         }
@@ -168,8 +198,18 @@ fn missing_shape(dimension: Dimension) -> ImageShape {
 }
 
 fn create(gpu: &Gpu, table: &BindlessTable, shape: &ImageShape) -> Result<Texture, GpuError> {
-    let image = gpu.create_image(&image_desc(shape))?;
-    let view = afterglow_gpu::ViewDesc { swizzle: expansion(shape.base_format), ..image.whole_view() };
+    create_of(gpu, table, shape, &image_desc(shape), expansion(shape.base_format))
+}
+
+fn create_of(
+    gpu: &Gpu,
+    table: &BindlessTable,
+    shape: &ImageShape,
+    desc: &ImageDesc<'_>,
+    swizzle: [vk::ComponentSwizzle; 4],
+) -> Result<Texture, GpuError> {
+    let image = gpu.create_image(desc)?;
+    let view = afterglow_gpu::ViewDesc { swizzle, ..image.whole_view() };
     let view = image.view_of(&view)?;
     let kind = bindless_kind(shape.dimension);
     let index = table.add_image(kind, view, vk::ImageLayout::GENERAL)?;
@@ -193,6 +233,21 @@ fn image_desc(shape: &ImageShape) -> ImageDesc<'static> {
         Dimension::Cube => ImageDesc::cube(name, format, shape.width, usage),
     };
     desc.mips(shape.levels)
+}
+
+/// Colours stay encoded: shaders decode them.
+fn picture_format(format: Format) -> vk::Format {
+    match format {
+        Format::Rgba8 => vk::Format::R8G8B8A8_UNORM,
+        Format::Rgba16F => vk::Format::R16G16B16A16_SFLOAT,
+        Format::Bc1 => vk::Format::BC1_RGB_UNORM_BLOCK,
+        Format::Bc1Alpha => vk::Format::BC1_RGBA_UNORM_BLOCK,
+        Format::Bc2 => vk::Format::BC2_UNORM_BLOCK,
+        Format::Bc3 => vk::Format::BC3_UNORM_BLOCK,
+        Format::Bc4 => vk::Format::BC4_UNORM_BLOCK,
+        Format::Bc5 => vk::Format::BC5_UNORM_BLOCK,
+        Format::Bc7 => vk::Format::BC7_UNORM_BLOCK,
+    }
 }
 
 fn bindless_kind(dimension: Dimension) -> BindlessKind {

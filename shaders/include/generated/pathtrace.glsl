@@ -4,7 +4,7 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 248 bytes
+struct SurfaceDraw { // 256 bytes
     uint64_t vertices;
     uint64_t indices;
     mat3x4 object_to_world;
@@ -31,6 +31,8 @@ struct SurfaceDraw { // 248 bytes
     uint first_light;
     vec3 base_color;
     float reach;
+    uint maps;
+    uint padding;
 };
 #endif
 
@@ -171,11 +173,12 @@ struct TraceCounters { // 16 bytes
 
 #ifndef STRUCT_ReservoirTexel
 #define STRUCT_ReservoirTexel
-struct ReservoirTexel { // 16 bytes
+struct ReservoirTexel { // 20 bytes
     uint light;
     uint point;
     float weight;
     float count;
+    float brings;
 };
 #endif
 
@@ -222,6 +225,15 @@ struct ViewPush { // 32 bytes
 #define blend_destination(w) (((w) >> 5) & 0xfu)
 #define BLEND_EQUATION_WORD 0
 #define blend_equation(w) (((w) >> 9) & 0x7u)
+#define MAPS_WORDS 1
+#define MAPS_UNIT_WORD 0
+#define maps_unit(w) (((w) >> 0) & 0x3u)
+#define MAPS_METAL_IN_NORMAL_WORD 0
+#define maps_metal_in_normal(w) (((w) >> 2) & 0x1u)
+#define MAPS_ROUGHNESS_IN_EMISSION_WORD 0
+#define maps_roughness_in_emission(w) (((w) >> 3) & 0x1u)
+#define MAPS_NORMAL_OF_TWO_WORD 0
+#define maps_normal_of_two(w) (((w) >> 4) & 0x1u)
 #define MASK_STATIC 1u
 #define MASK_MOVING 2u
 #define MASK_VIEW_MODEL 4u

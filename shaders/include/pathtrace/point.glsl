@@ -57,8 +57,11 @@ void program_surface(ViewRecord view, DrawReference draw, uint draw_index, uint 
     }
     point.emission += said_emission(view, draw, triangle, weights, RAY_TEXELS);
     vec3 albedo = min(color, MOST_ALBEDO);
-    point.bsdf = draw.it.roughness < 0.0
-        ? Bsdf(albedo, lobe.rgb, alpha_of(lobe.w)) : rough_bsdf(albedo, draw.it.roughness, draw.it.metallic);
+    point.bsdf = Bsdf(albedo, lobe.rgb, alpha_of(lobe.w));
+    if (draw.it.roughness >= 0.0) {
+        vec2 varied = said_roughness_metallic(draw, map_coordinates(view, draw, triangle, weights), RAY_TEXELS);
+        point.bsdf = rough_bsdf(albedo, varied.x, varied.y);
+    }
 }
 
 // What a ray along `direction` has met.
@@ -82,7 +85,7 @@ SurfacePoint surface_point(ViewRecord view, Hit hit, vec3 direction) {
     normal = is_towards ? normal : -normal;
     vec3 position = first + edge_1 * weights.y + edge_2 * weights.z;
     SurfacePoint point = shining_point(vec3(0.0), NO_LIGHT);
-    point.start = offset_ray(position, normal) + normal * start_distance(draw, dehomogenized(positions[0]));
+    point.start = offset_ray(position, normal) + normal * start_distance(draw, positions);
     point.normal = normal;
     point.geometric = normal;
     point.light = draw.it.first_light == NO_LIGHT ? NO_LIGHT : draw.it.first_light + triangle;

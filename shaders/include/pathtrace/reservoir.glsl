@@ -30,54 +30,47 @@ SurfacePoint seen_point(SurfaceTexel surface) {
     return seen;
 }
 
+// What a light's point brings to a surface that is seen along `to_viewer`.
+float brings_to(ViewRecord view, SurfacePoint at, vec3 to_viewer, ReservoirTexel kept) {
+    LightSample to = light_sample(light_source(view, kept.light), at.start, unpackUnorm2x16(kept.point));
+    return brings(path_from(at, to_viewer, 0u), to);
+}
+
 // A choice among candidates that are added one by one.
 struct Reservoir {
     ReservoirTexel kept;
-    LightSample to;
-    float kept_brings;
     float sum;
-    float count;
     float random; // chooses, stretched again after each choice
 };
 
+const ReservoirTexel NOTHING_KEPT = ReservoirTexel(0u, 0u, 0.0, 0.0, 0.0);
+
 Reservoir new_reservoir(float random) {
-    return Reservoir(ReservoirTexel(0u, 0u, 0.0, 0.0), no_light(), 0.0, 0.0, 0.0, random);
+    return Reservoir(NOTHING_KEPT, 0.0, random);
 }
 
-// Adds a candidate that stands for `count`. `weight` is what its sample is multiplied by where it comes from.
-void add_candidate(ViewRecord view, Path path, uint light, uint point, float weight, float count, inout Reservoir reservoir) {
-    reservoir.count += count;
-    if (!(weight > 0.0) || light >= view.light_count) {
-        return;
-    }
-    LightSample to = light_sample(light_source(view, light), path.at.start, unpackUnorm2x16(point));
-    float own = brings(path, to);
-    float share = own * weight * count;
+// Adds a candidate that brings `brings` here, with its share of the sum.
+void add_candidate(ReservoirTexel candidate, float brings, float share, inout Reservoir reservoir) {
     if (!(share > 0.0)) {
         return;
     }
     reservoir.sum += share;
     float chance = share / reservoir.sum;
     if (reservoir.random < chance) {
-        reservoir.kept.light = light;
-        reservoir.kept.point = point;
-        reservoir.to = to;
-        reservoir.kept_brings = own;
+        reservoir.kept = candidate;
+        reservoir.kept.brings = brings;
         reservoir.random /= chance;
     } else {
         reservoir.random = (reservoir.random - chance) / max(1.0 - chance, 1e-7);
     }
 }
 
-// The kept one's weight, if `count` candidates could have brought it.
-float kept_weight(Reservoir reservoir, float count) {
-    return reservoir.kept_brings > 0.0 && count > 0.0 ? reservoir.sum / (reservoir.kept_brings * count) : 0.0;
-}
-
-// Whether a light's point brings anything to a surface: only such could have kept it.
-bool could_keep(ViewRecord view, ReservoirTexel kept, vec3 start, vec3 normal) {
-    LightSample to = light_sample(light_source(view, kept.light), start, unpackUnorm2x16(kept.point));
-    return dot(to.direction, normal) > 0.0 && to.brought != vec3(0.0);
+// The choice, its weight such that what it brings times the weight is the sum on average.
+ReservoirTexel chosen(Reservoir reservoir, float count) {
+    ReservoirTexel kept = reservoir.kept;
+    kept.weight = kept.brings > 0.0 ? reservoir.sum / kept.brings : 0.0;
+    kept.count = count;
+    return kept;
 }
 
 // Whether two surfaces are near enough in place and direction; `other` is relative to the same origin.
@@ -87,16 +80,27 @@ bool is_alike(SurfacePoint at, vec3 other, vec3 other_normal, uint kind, uint ot
         && abs(dot(at.geometric, other - at.start)) < PLANE_SHARE * away;
 }
 
-// Candidates of this frame's own.
-void add_own(ViewRecord view, Path path, PathRandom random, uint dimension, uint candidates, inout Reservoir reservoir) {
-    float first = path_numbers(view, random, dimension).z;
+// Whether a texel can be used: its light may have gone.
+bool is_sound(ViewRecord view, ReservoirTexel texel) {
+    return texel.weight > 0.0 && texel.weight < 1e18 && texel.brings > 0.0 && texel.light < view.light_count;
+}
+
+// A choice among candidates of this frame's own.
+ReservoirTexel own_choice(ViewRecord view, Path path, PathRandom random, uint dimension, uint candidates) {
+    vec4 numbers = path_numbers(view, random, dimension);
+    Reservoir reservoir = new_reservoir(numbers.x);
     [[dont_unroll]] for (uint i = 0u; i < candidates; ++i) {
         float chance;
-        float number = (float(i) + first) / float(candidates);
-        uint light = chosen_placed(view, path.at.start, path.at.normal, number, chance);
-        uint point = packUnorm2x16(path_numbers(view, random, dimension + 1u + i).xy);
-        add_candidate(view, path, light, point, chance > 0.0 ? 1.0 / chance : 0.0, 1.0, reservoir);
+        float number = (float(i) + numbers.y) / float(candidates);
+        ReservoirTexel candidate = NOTHING_KEPT;
+        candidate.light = chosen_placed(view, path.at.start, path.at.normal, number, chance);
+        candidate.point = packUnorm2x16(path_numbers(view, random, dimension + 1u + i).xy);
+        if (chance > 0.0) {
+            float own = brings_to(view, path.at, path.to_viewer, candidate);
+            add_candidate(candidate, own, own / (chance * float(candidates)), reservoir);
+        }
     }
+    return chosen(reservoir, float(candidates));
 }
 
 // The pixel that showed a place in the frame before; false if none did.
@@ -108,67 +112,91 @@ bool pixel_before(ViewRecord view, vec3 position, out uvec2 pixel) {
     return clip.w > 0.0 && all(lessThan(abs(flat_xy), vec2(1.0)));
 }
 
+// Two choices for one surface, one of them made for `other`: each has the share that the balance heuristic gives it.
+ReservoirTexel merged(ViewRecord view, Path path, ReservoirTexel own, ReservoirTexel old, SurfacePoint other, vec3 other_viewer, float random) {
+    Reservoir reservoir = new_reservoir(random);
+    float count = own.count + old.count;
+    if (own.weight > 0.0) {
+        float there = brings_to(view, other, other_viewer, own);
+        float share = own.count * own.brings / (own.count * own.brings + old.count * there);
+        add_candidate(own, own.brings, share * own.brings * own.weight, reservoir);
+    }
+    if (is_sound(view, old)) {
+        float here = brings_to(view, path.at, path.to_viewer, old);
+        float share = old.count * old.brings / (own.count * here + old.count * old.brings);
+        add_candidate(old, here, share * here * old.weight, reservoir);
+    }
+    return chosen(reservoir, count);
+}
+
 // A pixel's choice with what the frame before has kept there.
 ReservoirTexel chosen_over_time(ViewRecord view, Path path, PathRandom random, uint kind) {
     uint candidates = clamp(view.candidates, 1u, MOST_CANDIDATES);
-    Reservoir reservoir = new_reservoir(path_numbers(view, random, 0u).x);
-    add_own(view, path, random, 0u, candidates, reservoir);
-    float count = reservoir.count;
+    ReservoirTexel own = own_choice(view, path, random, 1u, candidates);
     uvec2 before;
-    if (view.reservoirs_before != 0ul && pixel_before(view, path.at.start, before)) {
-        uint index = before.y * view.width + before.x;
-        SurfaceTexel surface = SurfaceTexels(view.surfaces_before).entries[index];
-        vec3 start = surface.start + view.origin_before;
-        vec3 normal = unpack_unit_vector(surface.normal);
-        if (is_alike(path.at, start, normal, kind, surface_kind(surface))) {
-            ReservoirTexel old = Reservoirs(view.reservoirs_before).entries[index];
-            old.count = min(old.count, MOST_HISTORY * float(candidates));
-            add_candidate(view, path, old.light, old.point, old.weight, old.count, reservoir);
-            count += could_keep(view, reservoir.kept, start, normal) ? old.count : 0.0;
-        }
+    if (view.reservoirs_before == 0ul || !pixel_before(view, path.at.start, before)) {
+        return own;
     }
-    reservoir.kept.weight = kept_weight(reservoir, count);
-    reservoir.kept.count = reservoir.count;
-    return reservoir.kept;
+    uint index = before.y * view.width + before.x;
+    SurfaceTexel surface = SurfaceTexels(view.surfaces_before).entries[index];
+    SurfacePoint other = seen_point(surface);
+    vec3 other_viewer = unit_vector(-other.start);
+    other.start += view.origin_before;
+    if (!is_alike(path.at, other.start, other.normal, kind, surface_kind(surface))) {
+        return own;
+    }
+    ReservoirTexel old = Reservoirs(view.reservoirs_before).entries[index];
+    old.count = min(old.count, MOST_HISTORY * float(candidates));
+    return merged(view, path, own, old, other, other_viewer, path_numbers(view, random, 0u).x);
 }
 
-// A light by the pixel's own choice and some neighbours'.
+// A light by the pixel's own choice and some neighbours', each with its share by pairs (Bitterli, Correlations and Reuse
+// for Fast and Accurate Physically Based Light Transport, 2022, section 9.1.3).
 Asked chosen_among_neighbours(ViewRecord view, Path path, PathRandom random, uint dimension, uvec2 pixel, uint kind) {
     vec4 numbers = path_numbers(view, random, dimension);
+    ReservoirTexel own = Reservoirs(view.reservoirs).entries[pixel.y * view.width + pixel.x];
     Reservoir reservoir = new_reservoir(numbers.x);
-    uint places[NEIGHBOURS + 1u];
-    float counts[NEIGHBOURS + 1u];
-    [[dont_unroll]] for (uint i = 0u; i <= NEIGHBOURS; ++i) {
+    // Shares of pairs; their number is known at the end, so the sum is of as many times too much.
+    float pairs = 0.0;
+    float own_share = 0.0;
+    [[dont_unroll]] for (uint i = 0u; i < NEIGHBOURS; ++i) {
         // Spread over the disc by the golden angle.
-        float radius = NEIGHBOUR_RADIUS * sqrt((float(i) - numbers.y) / float(NEIGHBOURS));
+        float radius = NEIGHBOUR_RADIUS * sqrt((float(i) + numbers.y) / float(NEIGHBOURS));
         float angle = 6.2831853 * (numbers.z + 0.381966 * float(i));
-        vec2 apart = i == 0u ? vec2(0.0) : radius * vec2(cos(angle), sin(angle));
-        vec2 most = vec2(view_size(view)) - 1.0;
-        uvec2 place = uvec2(clamp(vec2(pixel) + apart + 0.5, vec2(0.0), most));
-        uint index = place.y * view.width + place.x;
+        vec2 place = vec2(pixel) + radius * vec2(cos(angle), sin(angle)) + 0.5;
+        if (any(lessThan(place, vec2(0.0))) || any(greaterThanEqual(place, vec2(view_size(view))))) {
+            continue;
+        }
+        uint index = uint(place.y) * view.width + uint(place.x);
         SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
-        places[i] = index;
-        counts[i] = 0.0;
-        if (i == 0u || is_alike(path.at, surface.start, unpack_unit_vector(surface.normal), kind, surface_kind(surface))) {
-            ReservoirTexel own = Reservoirs(view.reservoirs).entries[index];
-            counts[i] = own.count;
-            add_candidate(view, path, own.light, own.point, own.weight, own.count, reservoir);
+        SurfacePoint other = seen_point(surface);
+        if (!is_alike(path.at, other.start, other.normal, kind, surface_kind(surface))) {
+            continue;
+        }
+        ReservoirTexel theirs = Reservoirs(view.reservoirs).entries[index];
+        pairs += 1.0;
+        float own_count = own.count / float(NEIGHBOURS);
+        if (own.weight > 0.0) {
+            float there = brings_to(view, other, unit_vector(-other.start), own);
+            own_share += own_count * own.brings / (own_count * own.brings + theirs.count * there);
+        }
+        if (is_sound(view, theirs)) {
+            float here = brings_to(view, path.at, path.to_viewer, theirs);
+            float share = theirs.count * theirs.brings / (own_count * here + theirs.count * theirs.brings);
+            add_candidate(theirs, here, share * here * theirs.weight, reservoir);
         }
     }
-    if (!(reservoir.kept_brings > 0.0)) {
+    if (own.weight > 0.0) {
+        add_candidate(own, own.brings, (pairs > 0.0 ? own_share : 1.0) * own.brings * own.weight, reservoir);
+    }
+    ReservoirTexel kept = chosen(reservoir, 0.0);
+    if (!(kept.weight > 0.0)) {
         return Asked(no_light(), 0.0, 0.0);
     }
-    float count = counts[0];
-    [[dont_unroll]] for (uint i = 1u; i <= NEIGHBOURS; ++i) {
-        if (counts[i] > 0.0) {
-            SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[places[i]];
-            bool could = could_keep(view, reservoir.kept, surface.start, unpack_unit_vector(surface.normal));
-            count += could ? counts[i] : 0.0;
-        }
-    }
-    LightSource light = light_source(view, reservoir.kept.light);
+    LightSource light = light_source(view, kept.light);
     float chance = placed_chance(view, 0u, light, path.at.start, path.at.normal);
-    return Asked(reservoir.to, chance, kept_weight(reservoir, count));
+    LightSample to = light_sample(light, path.at.start, unpackUnorm2x16(kept.point));
+    return Asked(to, chance, kept.weight / max(pairs, 1.0));
 }
 
 #endif

@@ -22,7 +22,7 @@ void main() {
     uint index = pixel.y * view.width + pixel.x;
     SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
     uint kind = surface_kind(surface);
-    ReservoirTexel kept = ReservoirTexel(0u, 0u, 0.0, 0.0);
+    ReservoirTexel kept = NOTHING_KEPT;
     if (kind != SURFACE_NONE && kind != SURFACE_BAKED) {
         // Other numbers than those of paths, and in each frame others.
         uint seed = hash(view.seed + 0x5eed0u + hash(view.frame_number));

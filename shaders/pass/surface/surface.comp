@@ -138,14 +138,11 @@ void apply_said(ViewRecord view, DrawReference draw, uint triangle, vec3 weights
     float texels = seen_texels(view, world, coordinates, away);
     vec2 here = coordinates[0] * weights.x + coordinates[1] * weights.y + coordinates[2] * weights.z;
     if (draw.it.normal_map != NO_MAP) {
-        vec3 turned = map_texel(draw.it.normal_map, here, texels).rgb;
+        vec3 turned = map_normal(draw, here, texels);
         texel.normal = pack_unit_vector(mapped_normal(turned, unpack_unit_vector(texel.normal), world, coordinates));
     }
     if (draw.it.roughness >= 0.0) {
-        vec2 varied = vec2(draw.it.roughness, draw.it.metallic);
-        if (draw.it.metallic_roughness_map != NO_MAP) {
-            varied *= map_texel(draw.it.metallic_roughness_map, here, texels).gb;
-        }
+        vec2 varied = said_roughness_metallic(draw, here, texels);
         Bsdf bsdf = rough_bsdf(linear_from_srgb(albedo), varied.x, varied.y);
         texel.specular = pack_lobe(bsdf.specular, varied.x);
         albedo = srgb_from_linear(bsdf.diffuse);
@@ -175,7 +172,7 @@ SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint tr
 
     SurfaceTexel texel;
     texel.start = offset_ray(facing.start, facing.geometric)
-        + facing.geometric * start_distance(draw, dehomogenized(positions[0]));
+        + facing.geometric * start_distance(draw, positions);
     texel.normal = pack_unit_vector(facing.normal);
     texel.geometric = pack_unit_vector(facing.geometric);
     // In perspective, w is the distance along the view.

@@ -13,7 +13,7 @@ bool accept_hit(uint instance, uint primitive, vec2 barycentrics) {
 }
 
 #include "bvh.glsl"
-#include "rays.glsl"
+#include "bench/rays.glsl"
 
 layout(push_constant, scalar) uniform Constants {
     uint64_t structure;

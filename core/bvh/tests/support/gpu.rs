@@ -2,14 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "what cannot go on is to fail loudly")]
 
-use afterglow_gpu::{
-    Access, Buffer, BufferDesc, BufferKind, ComputeDesc, ComputePipeline, Gpu, GpuOptions, vk,
-};
+use afterglow_gpu::{Buffer, BufferDesc, BufferKind, ComputeDesc, ComputePipeline, Gpu, GpuOptions, vk};
 use bytemuck::{Pod, Zeroable};
 use std::path::Path;
 use std::process::Command;
 
-/// A ray as `rays.glsl` has it.
+/// A ray as `bench/rays.glsl` has it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct RayRecord {
@@ -19,7 +17,7 @@ pub struct RayRecord {
     pub t_max: f32,
 }
 
-/// An answer as `rays.glsl` has it.
+/// An answer as `bench/rays.glsl` has it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Answer {
@@ -78,8 +76,8 @@ impl Tracer {
         buffer
     }
 
-    /// Traces `rays` through the structure at `address`; also the seconds that `rounds` more take.
-    pub fn trace(&self, address: u64, rays: &[RayRecord], search: Search, rounds: u32) -> (Vec<Answer>, f64) {
+    /// Traces `rays` through the structure at `address`.
+    pub fn trace(&self, address: u64, rays: &[RayRecord], search: Search) -> Vec<Answer> {
         let rays_buffer = self.upload(bytemuck::cast_slice(rays));
         let size = size_of_val(rays) as u64 / 32 * size_of::<Answer>() as u64;
         let desc = BufferDesc::new("answers", BufferKind::Device, size);
@@ -94,24 +92,9 @@ impl Tracer {
             padding: 0,
         };
         let groups = [rays.len().div_ceil(64) as u32, 1, 1];
-        let run = |rounds: u32| {
-            let mut timer = self.gpu.create_timer(1).unwrap();
-            let record = |commands: &afterglow_gpu::Commands| {
-                timer.restart(commands);
-                let scope = timer.begin(commands, "rays");
-                for _ in 0..rounds {
-                    commands.compute(&self.pipeline, &[], &constants, groups);
-                    commands.memory_barrier(Access::ALL, Access::ALL);
-                }
-                timer.end(commands, scope);
-            };
-            self.gpu.run(record).unwrap();
-            timer.results().unwrap()[0].nanoseconds as f64 * 1e-9
-        };
-        run(1);
-        let seconds = if rounds > 0 { run(rounds) } else { 0.0 };
+        self.gpu.run(|commands| commands.compute(&self.pipeline, &[], &constants, groups)).unwrap();
         let bytes = self.gpu.download_buffer(&answers).unwrap();
-        (bytemuck::pod_collect_to_vec(&bytes), seconds)
+        bytemuck::pod_collect_to_vec(&bytes)
     }
 }
 
@@ -127,8 +110,6 @@ fn compile(shader: &str) -> Vec<u32> {
         .args(["--target-env=vulkan1.2", "-O", "-Werror", "-o", "-"])
         .arg("-I")
         .arg(root.join("../../shaders/include"))
-        .arg("-I")
-        .arg(root.join("tests/shaders"))
         .arg(root.join(shader))
         .output()
         .expect("glslc runs");

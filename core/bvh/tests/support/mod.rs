@@ -1,7 +1,5 @@
 //! Built worlds and the reference's answer.
 
-pub mod room;
-
 use afterglow_bvh::{Blas, Hit, Query, Ray, Tlas};
 use std::collections::HashMap;
 

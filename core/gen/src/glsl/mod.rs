@@ -11,8 +11,8 @@ use afterglow_layout::StructDescription;
 use afterglow_records::{
     BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_MASK, BAKE_NONE, BAKE_SHIFT, BlendWord, LIGHT_FAR,
     LIGHT_LEAF, LIGHT_POINT, LIGHT_SPHERE, LIGHT_TRIANGLE, LIGHT_TRIANGLE_BOTH, MASK_MOVING, MASK_STATIC,
-    MASK_VIEW_MODEL, MEMBER_OF_LIGHTS, MEMBER_SHIFT, NO_LIGHT, NO_MAP, TRACE_INDEPENDENT, TRACE_ROULETTE,
-    TRACE_UNIFORM_LIGHTS, TRACE_UNLIMITED, WHITE_ALBEDO,
+    MASK_VIEW_MODEL, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MapWord, NO_LIGHT, NO_MAP, TRACE_INDEPENDENT,
+    TRACE_ROULETTE, TRACE_UNIFORM_LIGHTS, TRACE_UNLIMITED, WHITE_ALBEDO,
 };
 
 use self::constants::{enumerations, record_enumerations, surface_enumerations};
@@ -85,7 +85,10 @@ pub fn pathtrace() -> String {
         ("TRACE_UNIFORM_LIGHTS", TRACE_UNIFORM_LIGHTS),
         ("TRACE_UNLIMITED", TRACE_UNLIMITED),
     ];
-    let mut text = structures(&lists::pathtrace()) + "\n" + &BlendWord::description().glsl();
+    let mut text = structures(&lists::pathtrace())
+        + "\n"
+        + &BlendWord::description().glsl()
+        + &MapWord::description().glsl();
     for (name, value) in masks {
         text += &format!("#define {name} {value}u\n");
     }

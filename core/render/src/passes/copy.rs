@@ -30,7 +30,7 @@ pub(crate) struct FlipRecords {
 
 impl Flip {
     pub(crate) fn new(gpu: &Gpu) -> Result<Self, GpuError> {
-        let desc = ComputeDesc::new("flip.comp", afterglow_shaders::FLIP_COMP)
+        let desc = ComputeDesc::new("flip.comp", afterglow_shaders::current(afterglow_shaders::FLIP_COMP))
             .push_constants(size_of::<FlipPush>() as u32);
         Ok(Self { pipeline: gpu.create_compute_pipeline(&desc)? })
     }

@@ -13,6 +13,7 @@ use crate::pipelines::{PipelineKey, Pipelines, Program, Visibility};
 use crate::plan::RasterStep;
 use crate::queries::{Queries, SegmentPool};
 use crate::rectangles::Rectangles;
+use crate::replacements::Replacements;
 use crate::samplers::Samplers;
 use crate::tables::DrawCommand;
 use crate::target::Target;
@@ -59,6 +60,7 @@ pub(crate) struct RasterFrame<'a> {
     pub(crate) frame: &'a Frame,
     pub(crate) target: &'a Target,
     pub(crate) textures: &'a Textures,
+    pub(crate) replacements: Option<&'a Replacements>,
     pub(crate) table: &'a BindlessTable,
     /// Address of the frame's record.
     pub(crate) address: u64,
@@ -341,7 +343,13 @@ impl RasterPass<'_> {
 }
 
 fn lookup<'a>(input: &RasterFrame<'a>, samplers: &'a mut Samplers) -> Lookup<'a> {
-    Lookup { frame: input.frame, textures: input.textures, samplers, table: input.table }
+    Lookup {
+        frame: input.frame,
+        textures: input.textures,
+        replacements: input.replacements,
+        samplers,
+        table: input.table,
+    }
 }
 
 /// Records draws to a target's images.

@@ -15,12 +15,14 @@ use super::arrange::Mark;
 use super::geometry::GeometryReader;
 use super::lights::{LightList, MOST_TRIANGLES, ShiningTriangle};
 use super::options::{Displaced, PathtraceOptions};
+use super::replaced::ReplacedMaps;
 use super::said::SaidMaterial;
 use super::surfaces::{LayerFinder, Lighting, Located, has_holes, masks, surface_draw};
 use super::tracer::Tracing;
 use super::world::{Traced, relative};
 use crate::bindings::{Lookup, image_word};
 use crate::passes::raster::{DrawMark, RasterState};
+use crate::replacements::Replacements;
 use crate::tables::Scratch;
 use crate::textures::Textures;
 use crate::uploads::UploadArena;
@@ -34,6 +36,7 @@ pub(crate) struct TraceInput<'a> {
     pub(crate) scratch: &'a Scratch,
     pub(crate) raster: &'a mut RasterState,
     pub(crate) textures: &'a Textures,
+    pub(crate) replacements: Option<&'a Replacements>,
     pub(crate) table: &'a BindlessTable,
     pub(crate) arena: &'a mut UploadArena,
 }
@@ -180,7 +183,9 @@ impl<'a> Gatherer<'a, '_> {
     ) -> Result<(u32, SurfaceKind), GpuError> {
         let words = &self.input.frame.fixed[place.draw.fixed as usize].words;
         let hint = self.input.frame.hint(place.draw);
-        let has_material = hint.is_some_and(|hint| hint.material != HintMaterial::default());
+        let is_said = hint.is_some_and(|hint| hint.material != HintMaterial::default());
+        let has_material =
+            is_said || ReplacedMaps::are_there(self.input.replacements, self.input.frame, place.draw);
         let is_baked = verdict.baked || place.bake != BAKE_NONE;
         let kind = match hint.and_then(|hint| hint.material.base_color) {
             Some(_) => SurfaceKind::Lit,
@@ -261,6 +266,7 @@ impl<'a> Gatherer<'a, '_> {
         let mut lookup = Lookup {
             frame: input.frame,
             textures: input.textures,
+            replacements: input.replacements,
             samplers: &mut input.raster.samplers,
             table: input.table,
         };
@@ -276,6 +282,7 @@ impl<'a> Gatherer<'a, '_> {
         let rows = relative(&verdict.model, self.origin);
         let record = surface_draw(input.frame, draw, located, rows, kind, ray_mask, number);
         let record = material.write(SurfaceDraw { bake: place.bake, ..record });
+        let record = ReplacedMaps::of(&mut lookup, draw)?.write(record);
         self.surfaces.records.push(record);
         Ok(number)
     }

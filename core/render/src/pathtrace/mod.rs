@@ -27,6 +27,7 @@ mod program;
 mod radiance;
 mod rays;
 mod record;
+mod replaced;
 mod said;
 pub(crate) mod schedule;
 mod slabs;
@@ -38,7 +39,9 @@ mod world;
 
 pub use backend::Backend;
 pub(crate) use gather::TraceInput;
-pub use options::{Displaced, LightChoice, Mode, PathtraceOptions, Target};
+pub use options::{Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Target};
+#[cfg(feature = "reload")]
+pub(crate) use pipelines::TracePipelines;
 pub use prepare::TraceCounts;
 pub(crate) use prepare::{PreparedTrace, prepare};
 pub use radiance::Radiance;

@@ -1,5 +1,6 @@
 //! How a renderer traces.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use afterglow_records::Paint;
@@ -65,6 +66,15 @@ pub enum Displaced {
     Class(Class),
 }
 
+/// Where images that take the place of textures come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImageOptions {
+    /// The folder. It is looked at every second.
+    pub folder: PathBuf,
+    /// Whether frames wait for the images that they need, so that a trace always gives the same pictures.
+    pub waits: bool,
+}
+
 /// How to trace.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -108,6 +118,9 @@ pub struct PathtraceOptions {
     /// Where worlds and their recovered lights are kept for the next run of the program; nowhere if none. It holds
     /// from the first frame on, like the profile.
     pub cache: Option<ProgramCache>,
+    /// Images that take the place of the program's textures; none if it is not said. They hold for a renderer from the first
+    /// time on that it is said.
+    pub images: Option<ImageOptions>,
     /// What the picture shows.
     pub paint: Paint,
     /// Moves the light of this number by so much, world units.
@@ -137,6 +150,7 @@ impl Default for PathtraceOptions {
             replacing: Replacing::WhereGood,
             memory_bytes: MEMORY_BYTES,
             cache: None,
+            images: None,
             paint: Paint::Picture,
             move_light: None,
             move_draw: None,

@@ -31,7 +31,7 @@ impl TracePipelines {
         let pipeline = |name, spirv| {
             gpu.create_compute_pipeline(&ComputeDesc {
                 name,
-                spirv,
+                spirv: shaders::current(spirv),
                 entry: c"main",
                 specialization: &[],
                 set_layouts: &sets,

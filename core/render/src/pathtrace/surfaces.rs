@@ -126,6 +126,8 @@ pub(crate) fn surface_draw(
         first_light: NO_LIGHT,
         base_color: [-1.0; 3],
         reach: f32::INFINITY,
+        maps: 0,
+        padding: 0,
     }
 }
 

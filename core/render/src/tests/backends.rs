@@ -2,12 +2,15 @@
 //! one side or the other, and numbers are rounded otherwise.
 
 use afterglow_api::constants::*;
+use afterglow_gl::frame::{Hint, HintMaterial};
 use afterglow_gl::texture::ImageDefinition;
 use afterglow_gl::{Context, Params};
+use afterglow_scene::{Camera, Class, LightOrigin, LightShape, Scene, SceneLight, Verdict};
+use glam::{DMat4, DVec3, Mat4, Vec3};
 
-use super::pathtrace::{OPEN, SHADOW, Stage, look_down, slab};
-use crate::testing::assert_valid;
-use crate::{Backend, Mode, PathtraceOptions};
+use super::pathtrace::{OPEN, SHADOW, SIZE, Stage, look_down, slab};
+use crate::testing::{FrameBuilder, WHITE, assert_valid, renderer};
+use crate::{Backend, Mode, PathtraceOptions, Radiance};
 
 /// Share of pixels that may differ by more than a step of 8 bits.
 const MOST_DIFFERING: f64 = 0.004;
@@ -139,5 +142,66 @@ fn the_backend_can_change() {
     }
     let differing = before.iter().zip(&stage.picture()).filter(|(a, b)| a.abs_diff(**b) > 8).count();
     assert!(differing < before.len() / 100, "{differing}");
+    assert_valid();
+}
+
+/// A wall before which two spheres shine, seen by the camera's own rays.
+fn spheres(backend: Backend) -> Radiance {
+    let mut builder = FrameBuilder::new(SIZE.0, SIZE.1);
+    let material = HintMaterial { base_color: Some([0.5, 0.6, 0.7]), ..HintMaterial::default() };
+    builder.frame.hints.push(Hint { material, ..Hint::default() });
+    builder.quad([-3.0; 2], [3.0; 2], 0.0, WHITE);
+    let light = |position, radius, color| SceneLight {
+        shape: LightShape::Point { position, radius, attenuation: Vec3::Z, spot: None },
+        color,
+        origin: LightOrigin::SceneFile,
+    };
+    let scene = Scene {
+        camera: Some(Camera {
+            view: DMat4::from_translation(DVec3::new(0.0, 0.0, -6.0)),
+            // glFrustum(-0.4, 0.4, -0.3, 0.3, 1, 50).
+            projection: Mat4::from_cols_array_2d(&[
+                [2.5, 0.0, 0.0, 0.0],
+                [0.0, 10.0 / 3.0, 0.0, 0.0],
+                [0.0, 0.0, -51.0 / 49.0, -1.0],
+                [0.0, 0.0, -100.0 / 49.0, 0.0],
+            ]),
+        }),
+        verdicts: vec![Verdict {
+            operation: 0,
+            class: Class::Static,
+            reason: "test",
+            model: Mat4::IDENTITY,
+            object: 1,
+            previous: None,
+            baked: false,
+            triangles: 2,
+            base: None,
+        }],
+        lights: vec![
+            light(Vec3::new(-1.0, 0.0, 1.0), 0.5, Vec3::ONE),
+            light(Vec3::new(1.5, 0.8, 0.3), 0.2, Vec3::new(0.1, 0.2, 0.3)),
+        ],
+        ..Scene::default()
+    };
+    let mut renderer = renderer();
+    let options = PathtraceOptions { spp: 4, backend, ..PathtraceOptions::default() };
+    renderer.set_mode(Mode::Reference, &options).unwrap();
+    renderer.execute_staged(&mut builder.frame, scene).unwrap();
+    renderer.read_radiance().unwrap().unwrap()
+}
+
+#[test]
+fn lights_that_are_spheres_are_met_alike() {
+    let (software, hardware) = (spheres(Backend::Software), spheres(Backend::Hardware));
+    // The first sphere shines with its power over the square of its radius.
+    let brightest = |radiance: &Radiance| radiance.mean.iter().map(|pixel| pixel[0]).fold(0.0, f32::max);
+    assert!((brightest(&software) - 4.0).abs() < 0.5 && (brightest(&hardware) - 4.0).abs() < 0.5);
+    let differs = |(one, other): &(&[f32; 3], &[f32; 3])| {
+        one.iter().zip(*other).any(|(a, b)| (a - b).abs() > 0.01 * a.max(*b).max(0.01))
+    };
+    let differing = software.mean.iter().zip(&hardware.mean).filter(differs).count();
+    let most = (MOST_DIFFERING * software.mean.len() as f64) as usize;
+    assert!(differing <= most, "{differing} of {} pixels differ", software.mean.len());
     assert_valid();
 }

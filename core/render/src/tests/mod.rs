@@ -4,6 +4,7 @@ mod backends;
 mod clears;
 mod fragments;
 mod hints;
+mod images;
 mod lighting;
 mod pathtrace;
 mod pixels;

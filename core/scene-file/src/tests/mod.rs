@@ -1,1 +1,5 @@
 //! Scenes written by hand, staged, and damaged.
+
+mod damaged;
+mod sample;
+mod staged;

@@ -115,6 +115,15 @@ mod tests {
     }
 
     #[test]
+    fn images_lie_beside_the_file() {
+        let path = std::env::temp_dir().join(format!("afterglow-profile-{}.toml", std::process::id()));
+        std::fs::write(&path, "name = 'A'\nimages = 'pack'").unwrap();
+        let profile = ProfileChoice::File(path.clone()).load(None);
+        std::fs::remove_file(&path).unwrap();
+        assert_eq!(profile.unwrap().unwrap().images, Some(std::env::temp_dir().join("pack")));
+    }
+
+    #[test]
     fn options_name_a_file_or_none() {
         assert_eq!("none".parse(), Ok(ProfileChoice::None));
         assert_eq!("".parse(), Ok(ProfileChoice::ByName));

@@ -57,7 +57,11 @@ impl Profile {
             return Err(ProfileError::TooLarge(path.into()));
         }
         let text = std::str::from_utf8(&bytes).map_err(|error| malformed(path.display(), error))?;
-        Profile::parse(&path.display().to_string(), text)
+        let mut profile = Profile::parse(&path.display().to_string(), text)?;
+        if let (Some(images), Some(folder)) = (&mut profile.images, path.parent()) {
+            *images = folder.join(&*images);
+        }
+        Ok(profile)
     }
 
     /// Reads a text; `name` is for messages.

@@ -1,5 +1,7 @@
 //! What a profile says. The types are those of its file: their fields are its keys.
 
+use std::path::PathBuf;
+
 use afterglow_gl::frame::Frame;
 use glam::Vec3;
 use serde::Deserialize;
@@ -37,6 +39,8 @@ pub struct Profile {
     /// World units of a metre.
     #[serde(deserialize_with = "parse::positive")]
     pub(super) units_per_metre: Option<f32>,
+    /// Folder of images that take the place of the program's textures; in a file's text relative to the file.
+    pub images: Option<PathBuf>,
     pub(super) camera: Vec<CameraRule>,
     pub(super) class: Vec<ClassRule>,
     pub(super) lights: LightSettings,

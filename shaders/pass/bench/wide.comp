@@ -5,22 +5,22 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
 bool accept_hit(uint instance, uint primitive, vec2 barycentrics) {
     return true;
 }
 
 #include "bvh.glsl"
-#include "rays.glsl"
+#include "bench/rays.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(constant_id = 0) const bool ANY_HIT = false;
 
 layout(push_constant, scalar) uniform Constants {
     uint64_t structure;
     Rays rays;
     Answers answers;
     uint count;
-    uint mask;
-    uint any_hit;
 };
 
 void main() {
@@ -30,6 +30,6 @@ void main() {
     }
     RayRecord ray = rays.ray[index];
     Hit hit;
-    bool found = bvh_trace(structure, ray.origin, ray.t_min, ray.direction, ray.t_max, mask, any_hit != 0u, hit);
+    bool found = bvh_trace(structure, ray.origin, ray.t_min, ray.direction, ray.t_max, 1u, ANY_HIT, hit);
     answers.answer[index] = Answer(hit.t, hit.barycentrics, hit.primitive, hit.instance, uint(found) | uint(hit.front) << 1);
 }

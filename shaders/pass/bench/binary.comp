@@ -1,14 +1,14 @@
-// The yardstick: a plain binary BVH, boxes in f32, one level.
+// The yardstick of measurements: one ray a thread through a plain binary BVH, boxes in f32, one level.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
 #include "ray.glsl"
-#include "rays.glsl"
+#include "bench/rays.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
 
 // Four units a node: least corner and reference of the left child, its greatest corner, then the same
 // of the right child. A reference is a node's unit, or 1 << 31 | count << 27 | first triangle.
@@ -21,9 +21,9 @@ layout(push_constant, scalar) uniform Constants {
     Rays rays;
     Answers answers;
     uint count;
-    uint mask;
-    uint any_hit;
 };
+
+layout(constant_id = 0) const bool ANY_HIT = false;
 
 float box_entry(uvec4 low, uvec4 high, vec3 origin, vec3 inverse, float t_min, float t_max) {
     vec3 a = (uintBitsToFloat(low.xyz) - origin) * inverse;
@@ -77,7 +77,7 @@ void main() {
                     answer = Answer(met.t, met.barycentrics, z.y, 0u, 1u | uint(met.front) << 1);
                 }
             }
-            if (any_hit != 0u && answer.found_and_front != 0u) {
+            if (ANY_HIT && answer.found_and_front != 0u) {
                 break;
             }
         }

@@ -1,4 +1,4 @@
-// Rays in, answers out; the structures of tests/support/gpu.rs.
+// Rays in, answers out: of measurements (cli/src/bench/rays) and tests (core/bvh/tests/support/gpu.rs).
 
 struct RayRecord {
     vec3 origin;
@@ -15,10 +15,10 @@ struct Answer {
     uint found_and_front; // bit 0, bit 1
 };
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Rays {
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Rays {
     RayRecord ray[];
 };
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Answers {
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Answers {
     Answer answer[];
 };

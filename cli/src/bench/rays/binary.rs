@@ -1,4 +1,4 @@
-//! The words that `binary.comp` reads: a plain binary BVH.
+//! The words that `shaders/pass/bench/binary.comp` reads: a plain binary hierarchy.
 
 use afterglow_bvh::layout::Triangle;
 use glam::Vec3;
@@ -12,6 +12,7 @@ const NODE_UNITS: u32 = 4;
 
 /// Builds over the triangles of `indices`.
 pub fn build(positions: &[[f32; 3]], indices: &[[u32; 3]]) -> Vec<u32> {
+    // The mesh's reader has checked that corners are there.
     let corners = |triangle: &[u32; 3]| triangle.map(|corner| positions[corner as usize]);
     let triangles: Vec<ObvhsTriangle> = indices
         .iter()

@@ -1,0 +1,129 @@
+//! `afterglow bench rays`: rays a second through the structures that light is traced in.
+//!
+//! Closed rooms of a thousand triangles to four million, and meshes from files. Rays are made on the device (`caster`):
+//! a camera's, shadow rays and cosine-distributed bounces from what the camera sees. Each structure (`structure`)
+//! traces the same rays; a plain binary hierarchy is the yardstick. Building, refitting and memory are measured besides.
+
+mod binary;
+mod build;
+mod caster;
+mod npz;
+mod rows;
+mod structure;
+mod subject;
+
+use std::path::{Path, PathBuf};
+
+use afterglow_gpu::{DeviceKind, Gpu};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+
+use crate::failure::Failure;
+use crate::options::DeviceArguments;
+use crate::output;
+use caster::Caster;
+use subject::Subject;
+
+/// Arguments of `bench rays`.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    device: DeviceArguments,
+    /// Rays across and down, multiples of 8 [default: 320x184, on a GPU 1920x1080]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    size: Option<[u32; 2]>,
+    /// Whose structures
+    #[arg(long, value_enum, default_value = "both")]
+    backend: Backend,
+    /// Also a mesh: arrays `positions` (V, 3) and `triangles` (T, 3) of a NumPy archive; may be given more than once
+    #[arg(long, value_name = "FILE.npz")]
+    mesh: Vec<PathBuf>,
+    /// Rooms of about so many triangles
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(0..=50_000_000),
+          default_value = "1000,30000,300000,1000000,4000000")]
+    triangles: Vec<u32>,
+    /// Time for each figure, in milliseconds; each is of at least three runs
+    #[arg(long, value_name = "MS", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=60_000))]
+    time: u32,
+    /// Also write the figures as JSON (`-`: to standard output)
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// Whose structures are measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Backend {
+    /// The project's own, in compute shaders
+    Software,
+    /// The driver's
+    Hardware,
+    /// Both
+    Both,
+}
+
+/// All figures.
+#[derive(Debug, Serialize)]
+struct Report {
+    device: String,
+    size: [u32; 2],
+    subjects: Vec<rows::SubjectRow>,
+}
+
+/// Runs `bench rays`.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let gpu = Gpu::new(&arguments.device.gpu_options())?;
+    let info = gpu.info();
+    let size = arguments.size.unwrap_or(match info.kind {
+        DeviceKind::Cpu => [320, 184],
+        _ => [1920, 1080],
+    });
+    let prints = arguments.json.as_deref() != Some(Path::new("-"));
+    let mut report = Report { device: info.name.clone(), size, subjects: Vec::new() };
+    if prints {
+        output::print(|out| rows::write_head(out, &report.device, size))?;
+    }
+    let caster = Caster::new(&gpu, size, arguments.time)?;
+    let rooms = arguments.triangles.iter().map(|&triangles| Ok(Subject::room(triangles)));
+    let meshes = arguments.mesh.iter().map(|path| Subject::file(path));
+    for subject in rooms.chain(meshes) {
+        let row = measure(&gpu, &caster, &subject?, arguments.backend)?;
+        if prints {
+            output::print(|out| row.write(out))?;
+        }
+        report.subjects.push(row);
+    }
+    arguments.json.as_deref().map_or(Ok(()), |path| output::write_json(path, &report))
+}
+
+fn measure(
+    gpu: &Gpu,
+    caster: &Caster,
+    subject: &Subject,
+    backend: Backend,
+) -> Result<rows::SubjectRow, Failure> {
+    let (blas, build) = build::measure(subject)?;
+    let wide = structure::Wide::new(gpu, &blas)?;
+    let rays = caster.make_rays(gpu, subject, &wide)?;
+    let plain = structure::Plain::new(gpu, subject)?;
+    let mut row = rows::SubjectRow::new(subject, build);
+    row.structures.push(caster.measure(gpu, &plain, &rays)?);
+    if backend != Backend::Hardware {
+        row.structures.push(caster.measure(gpu, &wide, &rays)?);
+    }
+    if backend != Backend::Software {
+        match structure::hardware(gpu, subject)? {
+            Some(hardware) => row.structures.push(caster.measure(gpu, hardware.as_ref(), &rays)?),
+            None => row.not_there.push("hardware"),
+        }
+    }
+    Ok(row)
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let (width, height) = text.split_once('x').ok_or("not WIDTHxHEIGHT")?;
+    let side = |text: &str| match text.parse::<u32>() {
+        Ok(side @ 8..=8192) if side.is_multiple_of(8) => Ok(side),
+        _ => Err("not a multiple of 8 up to 8192".to_owned()),
+    };
+    Ok([side(width)?, side(height)?])
+}

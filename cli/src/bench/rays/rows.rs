@@ -1,0 +1,102 @@
+//! The report's rows.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::build::BuildRow;
+use super::subject::Subject;
+
+/// All figures of a mesh.
+#[derive(Debug, Serialize)]
+pub struct SubjectRow {
+    /// The mesh.
+    pub name: String,
+    /// How many triangles.
+    pub triangles: usize,
+    /// Building it.
+    pub build: BuildRow,
+    /// The yardstick first.
+    pub structures: Vec<StructureRow>,
+    /// Backends that were asked for and are not there.
+    pub not_there: Vec<&'static str>,
+}
+
+/// Figures of a structure.
+#[derive(Debug, Serialize)]
+pub struct StructureRow {
+    /// Its name.
+    pub structure: String,
+    /// One a kind of rays.
+    pub rays: Vec<RayRow>,
+}
+
+/// Figures of a kind of rays.
+#[derive(Debug, Serialize)]
+pub struct RayRow {
+    /// `primary`, `shadow`, `bounce`.
+    pub kind: &'static str,
+    /// Millions of rays a second in the shortest run.
+    pub best_mrays: f64,
+    /// The same in the run of median length.
+    pub median_mrays: f64,
+    /// Rays that met something, 0 to 1.
+    pub hit_share: f64,
+    /// How many runs.
+    pub runs: usize,
+}
+
+/// Writes what stands above the first row.
+pub fn write_head(out: &mut dyn Write, device: &str, size: [u32; 2]) -> io::Result<()> {
+    writeln!(
+        out,
+        "{device}, {}x{} rays; Mrays/s of the shortest run, the median one, and in units of the binary structure",
+        size[0], size[1]
+    )
+}
+
+impl SubjectRow {
+    /// Without structures yet.
+    pub fn new(subject: &Subject, build: BuildRow) -> Self {
+        let (structures, not_there) = (Vec::new(), Vec::new());
+        Self { name: subject.name.clone(), triangles: subject.triangle_count(), build, structures, not_there }
+    }
+
+    /// Writes the mesh's figures as text.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let build = &self.build;
+        writeln!(
+            out,
+            "{}, {} triangles\n  builds {:.2} (fast), {:.2} (good), refits {:.2} Mtriangles/s; {:.1} bytes a triangle, {:.1} \
+             of nodes; {} levels",
+            self.name,
+            self.triangles,
+            build.fast_mtriangles,
+            build.good_mtriangles,
+            build.refit_mtriangles,
+            build.bytes_a_triangle,
+            build.node_bytes_a_triangle,
+            build.levels
+        )?;
+        for structure in &self.structures {
+            for (number, rays) in structure.rays.iter().enumerate() {
+                let yardstick = self.structures[0].rays.get(number).map_or(f64::NAN, |rays| rays.best_mrays);
+                writeln!(
+                    out,
+                    "  {:<9} {:<8} {:>9.2} {:>9.2} {:>6.2}   {:.2} % hit, {} runs",
+                    structure.structure,
+                    rays.kind,
+                    rays.best_mrays,
+                    rays.median_mrays,
+                    rays.best_mrays / yardstick,
+                    100.0 * rays.hit_share,
+                    rays.runs
+                )?;
+            }
+        }
+        for backend in &self.not_there {
+            writeln!(out, "  {backend:<9} not there")?;
+        }
+        Ok(())
+    }
+}

@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn what_is_near_or_nowhere_stays() {
         for corners in
-            [vec![[100.0, 0.0, 0.0], [101.0, 0.0, 0.0]], vec![], vec![[f32::INFINITY; 3]], vec![[0.0; 3]]]
+            [vec![[10.0, 0.0, 0.0], [11.0, 0.0, 0.0]], vec![], vec![[f32::INFINITY; 3]], vec![[0.0; 3]]]
         {
             assert_eq!(Anchor::of(Reach::of(&corners)), Anchor::ORIGIN);
         }

@@ -147,7 +147,7 @@ fn closed_box_that_shines() {
                 DVec3::new(-1.0, -0.8, -0.9),
                 1.0,
             );
-            let picture = reference(&world, &Shot::of(128).with(|options| options.target = target));
+            let picture = reference(&world, &Shot::of(64).with(|options| options.target = target));
             picture.assert_sound("a box");
             let value = 0.5 * (1.0 - albedo.powi(bounces + 1)) / (1.0 - albedo);
             picture.whole().assert(value, 1e-4, &format!("{target:?} of albedo {albedo}"));
@@ -179,7 +179,7 @@ fn choices_of_lights_agree() {
     let world = room(32);
     let picture = |choice, candidates| {
         let shot =
-            Shot::of(96).with(|options| (options.light_choice, options.candidates) = (choice, candidates));
+            Shot::of(64).with(|options| (options.light_choice, options.candidates) = (choice, candidates));
         reference(&world, &shot)
     };
     let uniform = picture(LightChoice::Uniform, 1);

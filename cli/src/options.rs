@@ -75,6 +75,36 @@ impl Baked {
     }
 }
 
+/// What traces rays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Backend {
+    /// The software one; in live programs the faster one of both, which is found while they play
+    Auto,
+    /// A BVH of our own in compute shaders
+    Software,
+    /// The driver's structures and ray-tracing pipelines
+    Hardware,
+}
+
+impl Backend {
+    /// Where nothing may depend on how fast things are.
+    pub fn fixed(self) -> render::Backend {
+        match self {
+            Backend::Auto | Backend::Software => render::Backend::Software,
+            Backend::Hardware => render::Backend::Hardware,
+        }
+    }
+
+    /// As AFTERGLOW_BACKEND has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Backend::Auto => "auto",
+            Backend::Software => "software",
+            Backend::Hardware => "hardware",
+        }
+    }
+}
+
 /// Which device, and how it is watched.
 #[derive(Debug, Args)]
 pub struct DeviceArguments {
@@ -110,6 +140,9 @@ pub enum LightChoice {
 /// How light is found.
 #[derive(Debug, Args)]
 pub struct LightArguments {
+    /// What traces rays
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "auto", env = "AFTERGLOW_BACKEND")]
+    pub backend: Backend,
     /// Bounces of light between surfaces (pathtrace)
     #[arg(long, value_name = "N", default_value_t = 1, env = "AFTERGLOW_BOUNCES", value_parser = clap::value_parser!(u32).range(0..=63))]
     pub bounces: u32,
@@ -129,9 +162,9 @@ pub struct LightArguments {
     /// Lights that a sample asks at the surface that is seen (pathtrace)
     #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_ASKED", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=4))]
     pub asked: u32,
-    /// Choose lights for each pixel and frame alone (pathtrace)
+    /// Of many lights keep the choice of each pixel from frame to frame, and lend it to its neighbours (pathtrace)
     #[arg(long, hide_short_help = true)]
-    pub no_reuse: bool,
+    pub reuse: bool,
     /// Radiance that a sample brings at most; `inf` for no limit (pathtrace)
     #[arg(long, value_name = "RADIANCE", default_value_t = 16.0, env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
     pub limit: f32,
@@ -143,13 +176,14 @@ pub struct LightArguments {
 impl LightArguments {
     /// Tells a renderer.
     pub fn apply(&self, options: &mut render::PathtraceOptions) {
+        options.backend = self.backend.fixed();
         options.surfaces = self.bounces + 1;
         options.light_choice = match self.lights {
             LightChoice::Resampled => render::LightChoice::Resampled,
             LightChoice::Uniform => render::LightChoice::Uniform,
         };
         (options.candidates, options.asked) = (self.candidates, self.asked);
-        options.keeps_lights = !self.no_reuse && self.lights == LightChoice::Resampled;
+        options.keeps_lights = self.reuse && self.lights == LightChoice::Resampled;
         options.most_radiance = self.limit;
         options.filter = !self.no_filter;
     }

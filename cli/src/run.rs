@@ -12,7 +12,9 @@ use clap::Args;
 
 use crate::failure::Failure;
 use crate::libdir;
-use crate::options::{Baked, DeviceArguments, ImageArguments, KeepArguments, Mode, ProfileArguments};
+use crate::options::{
+    Backend, Baked, DeviceArguments, ImageArguments, KeepArguments, Mode, ProfileArguments,
+};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -23,6 +25,9 @@ pub struct Arguments {
     /// Samples a pixel and frame (pathtrace)
     #[arg(long, value_name = "N", default_value_t = 1, env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
     spp: u32,
+    /// What traces rays
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "auto", env = "AFTERGLOW_BACKEND")]
+    backend: Backend,
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
     seed: u32,
@@ -98,6 +103,7 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
         .env("SDL_VIDEODRIVER", "x11")
         .env("SDL_VIDEO_DRIVER", "x11")
         .env("AFTERGLOW_SPP", arguments.spp.to_string())
+        .env("AFTERGLOW_BACKEND", arguments.backend.name())
         .env("AFTERGLOW_SEED", arguments.seed.to_string())
         .env("AFTERGLOW_MEMORY", arguments.memory.to_string())
         .env("AFTERGLOW_BAKED", arguments.baked.name());

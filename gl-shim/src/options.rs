@@ -6,7 +6,7 @@ use std::sync::{Arc, Once};
 
 use afterglow_engine::EngineOptions;
 use afterglow_gpu::{Faults, GpuOptions};
-use afterglow_render::{ImageOptions, Mode, PathtraceOptions};
+use afterglow_render::{Backend, ImageOptions, Mode, PathtraceOptions};
 use afterglow_scene::{Profile, ProfileChoice, ProgramCache, Replacing};
 use tracing::level_filters::LevelFilter;
 
@@ -18,7 +18,8 @@ const MOST_SAMPLES: u32 = 65536;
 /// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
 /// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_MEMORY` (MiB of the undrawn world), `AFTERGLOW_KEEP` (worlds are kept
 /// for the next run, which they are unless it says no), `AFTERGLOW_BAKED` (`auto`, `keep` or `replace` baked light),
-/// `AFTERGLOW_REPLACE_IMAGES` (a folder), `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
+/// `AFTERGLOW_REPLACE_IMAGES` (a folder), `AFTERGLOW_BACKEND` (`auto`, `software` or `hardware` traces rays),
+/// `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
 ///
 /// For tests: the device is lost at the submissions that `AFTERGLOW_DEBUG_LOSE_DEVICE` lists, counted from 1, and has
 /// `AFTERGLOW_DEBUG_MEMORY` MiB of memory; with `AFTERGLOW_DEBUG_NO_WINDOWS` it cannot show pictures itself.
@@ -54,6 +55,7 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
         },
         mode: parsed(variable, "AFTERGLOW_MODE", mode),
         pathtrace,
+        backend: parsed(variable, "AFTERGLOW_BACKEND", backend).flatten(),
         hud: parsed(variable, "AFTERGLOW_HUD", flag).unwrap_or(false),
     }
 }
@@ -113,6 +115,16 @@ fn mode(value: &str) -> Option<Mode> {
         "raster" => Some(Mode::Raster),
         "pathtrace" => Some(Mode::Pathtrace),
         "reference" => Some(Mode::Reference),
+        _ => None,
+    }
+}
+
+/// None is the faster one.
+fn backend(value: &str) -> Option<Option<Backend>> {
+    match value {
+        "auto" => Some(None),
+        "software" => Some(Some(Backend::Software)),
+        "hardware" => Some(Some(Backend::Hardware)),
         _ => None,
     }
 }
@@ -192,6 +204,7 @@ mod tests {
                 "AFTERGLOW_SPP" => "0",
                 "AFTERGLOW_SEED" => "minus one",
                 "AFTERGLOW_HUD" => "on",
+                "AFTERGLOW_BACKEND" => "hardware",
                 "AFTERGLOW_PROFILE" => "/nowhere/at-all.toml",
                 "AFTERGLOW_DEBUG_LOSE_DEVICE" => "3, never",
                 _ => "",
@@ -202,6 +215,7 @@ mod tests {
         assert!(options.gpu.validation && options.gpu.device.is_none());
         assert_eq!((options.pathtrace.spp, options.pathtrace.seed), (1, 0));
         assert_eq!(options.pathtrace.profile, None);
+        assert_eq!(options.backend, Some(Backend::Hardware));
         assert!(options.hud && options.gpu.faults.losses.is_empty());
     }
 }

@@ -3,8 +3,9 @@
 // The includer enables GL_EXT_buffer_reference, GL_EXT_scalar_block_layout and
 // GL_EXT_shader_explicit_arithmetic_types_int64, and defines
 //     bool accept_hit(uint instance, uint primitive, vec2 barycentrics);
-// which is asked only for triangles and spheres that are flagged alpha-tested, or whose instance is. Call
-// bvh_trace from one place, in a loop: each call site is compiled anew.
+// which is asked only for triangles and spheres that are flagged alpha-tested, or whose instance is. It may define
+// BVH_SPHERES, a constant, as false where no structure holds spheres: rays are 8 % faster then. Call bvh_trace from
+// one place, in a loop: each call site is compiled anew.
 
 #ifndef AFTERGLOW_BVH_GLSL
 #define AFTERGLOW_BVH_GLSL
@@ -34,19 +35,34 @@ bool bvh_trace(uint64_t tlas, vec3 origin, float t_min, vec3 direction, float t_
     bool found = false;
     hit = Hit(t_max, vec2(0.0), 0u, 0u, false);
 
-    for (uint visits = 0u; visits < BVH_MAX_STEPS; ++visits) {
-        if (bvh_has_nodes(nodes)) {
-            uint place = bvh_take_node(nodes, ray.order);
-            if (bvh_has_nodes(nodes) && height < BVH_STACK_ENTRIES) {
-                stack[height++] = bvh_pack(nodes);
+    for (uint steps = 0u; steps < BVH_MAX_STEPS; ++steps) {
+        if (leaves.mask == 0u) {
+            if (!bvh_has_nodes(nodes)) {
+                if (height == 0u) {
+                    break;
+                }
+                if (inside && height <= floor_height) {
+                    inside = false;
+                    structure = tlas;
+                    ray = bvh_ray(origin, direction);
+                }
+                nodes = bvh_unpack(stack[--height]);
             }
-            bvh_visit(structure, place, ray, t_min, hit.t, nodes, leaves);
-        } else {
-            leaves = nodes;
-            nodes = BvhGroup(0u, 0u);
+            if (bvh_has_nodes(nodes)) {
+                uint place = bvh_take_node(nodes, ray.order);
+                if (bvh_has_nodes(nodes) && height < BVH_STACK_ENTRIES) {
+                    stack[height++] = bvh_pack(nodes);
+                }
+                bvh_visit(structure, place, ray, t_min, hit.t, nodes, leaves);
+            } else {
+                leaves = nodes;
+                nodes = BvhGroup(0u, 0u);
+            }
         }
 
-        while (leaves.mask != 0u) {
+        // One leaf record a step: rays that have none wait for one, and not for the most that any ray has. Where any
+        // hit will do, few rays come to leaves, and those end there.
+        for (bool more = leaves.mask != 0u; more; more = any_hit && leaves.mask != 0u) {
             if (inside) {
                 uint place = bvh_take_leaf(leaves, BVH_TRIANGLE_UNITS);
                 TriangleHit met;
@@ -88,18 +104,6 @@ bool bvh_trace(uint64_t tlas, vec3 origin, float t_min, vec3 direction, float t_
                 nodes = BVH_ROOT;
                 leaves.mask = 0u;
             }
-        }
-
-        if (!bvh_has_nodes(nodes)) {
-            if (height == 0u) {
-                break;
-            }
-            if (inside && height <= floor_height) {
-                inside = false;
-                structure = tlas;
-                ray = bvh_ray(origin, direction);
-            }
-            nodes = bvh_unpack(stack[--height]);
         }
     }
     return found;

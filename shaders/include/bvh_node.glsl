@@ -7,6 +7,11 @@
 
 #include "ray.glsl"
 
+// Whether structures may hold spheres.
+#ifndef BVH_SPHERES
+#define BVH_SPHERES true
+#endif
+
 const uint BVH_NODE_UNITS = 5u;
 const uint BVH_TRIANGLE_UNITS = 3u;
 const uint BVH_INSTANCE_UNITS = 7u;
@@ -157,14 +162,11 @@ bool bvh_meet_triangle(uint64_t structure, uint place, BvhRay ray, float t_min, 
     vec3 c = uintBitsToFloat(uvec3(second.zw, third.x));
     primitive = third.y;
     flags = third.z;
-    // A loop, not a branch: where no ray of a group meets a sphere, lavapipe leaves out a loop only.
-    for (bool sphere = (flags & BVH_FLAG_SPHERE) != 0u; sphere; ) {
+    if (BVH_SPHERES && (flags & BVH_FLAG_SPHERE) != 0u) {
         SphereHit met;
-        if (!intersect_sphere(ray.origin, ray.inverse, ray.shear, t_min, a, b.x, met)) {
-            return false;
-        }
+        bool is_met = intersect_sphere(ray.origin, ray.inverse, ray.shear, t_min, a, b.x, met);
         hit = TriangleHit(met.t, vec2(0.0), met.front);
-        return true;
+        return is_met;
     }
     return intersect_triangle(ray.origin, ray.shear, a, b, c, hit);
 }

@@ -22,6 +22,7 @@ use crate::failure::Failure;
 use crate::options::DeviceArguments;
 use crate::output;
 use caster::Caster;
+use structure::Structure;
 use subject::Subject;
 
 /// Arguments of `bench rays`.
@@ -29,7 +30,7 @@ use subject::Subject;
 pub struct Arguments {
     #[command(flatten)]
     device: DeviceArguments,
-    /// Rays across and down, multiples of 8 [default: 320x184, on a GPU 1920x1080]
+    /// Rays across and down, multiples of 8 and 4 [default: 320x180, on a GPU 1920x1080]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     size: Option<[u32; 2]>,
     /// Whose structures
@@ -74,7 +75,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let gpu = Gpu::new(&arguments.device.gpu_options())?;
     let info = gpu.info();
     let size = arguments.size.unwrap_or(match info.kind {
-        DeviceKind::Cpu => [320, 184],
+        DeviceKind::Cpu => [320, 180],
         _ => [1920, 1080],
     });
     let prints = arguments.json.as_deref() != Some(Path::new("-"));
@@ -106,24 +107,27 @@ fn measure(
     let rays = caster.make_rays(gpu, subject, &wide)?;
     let plain = structure::Plain::new(gpu, subject)?;
     let mut row = rows::SubjectRow::new(subject, build);
-    row.structures.push(caster.measure(gpu, &plain, &rays)?);
+    let mut structures: Vec<&dyn Structure> = vec![&plain];
     if backend != Backend::Hardware {
-        row.structures.push(caster.measure(gpu, &wide, &rays)?);
+        structures.push(&wide);
     }
-    if backend != Backend::Software {
-        match structure::hardware(gpu, subject)? {
-            Some(hardware) => row.structures.push(caster.measure(gpu, hardware.as_ref(), &rays)?),
-            None => row.not_there.push("hardware"),
-        }
+    let hardware = match backend {
+        Backend::Software => None,
+        Backend::Hardware | Backend::Both => structure::hardware(gpu, subject)?,
+    };
+    structures.extend(hardware.as_deref());
+    if backend != Backend::Software && hardware.is_none() {
+        row.not_there.push("hardware");
     }
+    row.structures = caster.measure(gpu, &structures, &rays)?;
     Ok(row)
 }
 
 fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let (width, height) = text.split_once('x').ok_or("not WIDTHxHEIGHT")?;
-    let side = |text: &str| match text.parse::<u32>() {
-        Ok(side @ 8..=8192) if side.is_multiple_of(8) => Ok(side),
-        _ => Err("not a multiple of 8 up to 8192".to_owned()),
+    let side = |text: &str, step: u32| match text.parse::<u32>() {
+        Ok(side @ 8..=8192) if side.is_multiple_of(step) => Ok(side),
+        _ => Err(format!("not a multiple of {step} from 8 to 8192")),
     };
-    Ok([side(width)?, side(height)?])
+    Ok([side(width, 8)?, side(height, 4)?])
 }

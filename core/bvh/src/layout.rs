@@ -26,7 +26,7 @@ pub const MAX_DEPTH_BLAS: u32 = 20;
 pub const MAX_DEPTH_TLAS: u32 = 10;
 /// Entries of the traversal stack: one a level, and two where a ray enters an instance.
 pub const STACK_ENTRIES: usize = 32;
-/// Most nodes one ray visits: malformed data cannot hang a device.
+/// Most steps of one ray, a node or a leaf record each: malformed data cannot hang a device.
 pub const MAX_STEPS: u32 = 1 << 18;
 
 /// Triangles and instances with a coordinate beyond this are left out, so that no product of the

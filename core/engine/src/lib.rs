@@ -9,6 +9,7 @@
 
 mod blanks;
 mod canvas;
+mod contest;
 mod drawable;
 mod failures;
 mod flushed;

@@ -9,9 +9,10 @@ use std::time::{Duration, Instant};
 use afterglow_gl::backend::{Backend, End, Reply, Request};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{DeviceKind, Gpu};
-use afterglow_render::{Mode, RenderError, RenderOptions, Renderer};
+use afterglow_render::{Backend as Rays, Mode, RenderError, RenderOptions, Renderer};
 use parking_lot::Mutex;
 
+use crate::contest::{Contest, Turn};
 use crate::drawable::Drawable;
 use crate::failures::Failures;
 use crate::life::Ending;
@@ -35,6 +36,8 @@ pub(crate) struct State {
     /// What frames become now.
     mode: Mode,
     slowness: Slowness,
+    /// Until it is known which backend is the faster one.
+    contest: Option<Contest>,
     recycled: Arc<Mutex<Vec<Frame>>>,
     /// By share group.
     renderers: HashMap<u64, Renderer>,
@@ -52,11 +55,13 @@ pub(crate) struct State {
 impl State {
     pub(crate) fn new(
         gpu: Gpu,
-        options: EngineOptions,
+        mut options: EngineOptions,
         recycled: Arc<Mutex<Vec<Frame>>>,
         device_number: Arc<AtomicU64>,
     ) -> Self {
+        options.pathtrace.backend = first_backend(&gpu, options.backend);
         Self {
+            contest: if options.backend.is_none() { Contest::on(&gpu) } else { None },
             gpu: Some(gpu),
             mode: options.mode.unwrap_or(Mode::Pathtrace),
             slowness: Slowness::default(),
@@ -111,6 +116,7 @@ impl State {
                 if self.frame(group, &drawable, frame, end) && end != End::Continued {
                     self.present(&drawable);
                     self.judge_speed(begun.elapsed());
+                    self.judge_backend(group);
                     self.note_pace(&drawable, handed_over);
                 }
             }
@@ -173,6 +179,35 @@ impl State {
             for renderer in self.renderers.values_mut() {
                 // Only ever fails where something is made.
                 let _ = renderer.set_mode(self.mode, &self.options.pathtrace);
+            }
+        }
+    }
+
+    /// Goes on with the backend that is the faster one, once that is known.
+    fn judge_backend(&mut self, group: u64) {
+        let (Some(contest), Some(renderer)) = (&mut self.contest, self.renderers.get(&group)) else { return };
+        let backend = match contest.note(renderer.last_report()) {
+            Turn::Wait => return,
+            Turn::Try(backend) => backend,
+            Turn::Keep(backend) => {
+                self.contest = None;
+                backend
+            }
+        };
+        self.trace_by(backend);
+    }
+
+    fn trace_by(&mut self, backend: Rays) {
+        if backend == self.options.pathtrace.backend || self.mode == Mode::Raster {
+            return;
+        }
+        let former = std::mem::replace(&mut self.options.pathtrace.backend, backend);
+        for renderer in self.renderers.values_mut() {
+            if let Err(error) = renderer.set_mode(self.mode, &self.options.pathtrace) {
+                tracing::warn!("rays stay with the {former} backend: {error}");
+                self.contest = None;
+                self.options.pathtrace.backend = former;
+                return;
             }
         }
     }
@@ -245,7 +280,8 @@ impl State {
     fn make_renderer(&self, gpu: &Gpu) -> Result<Renderer, RenderError> {
         let mut options = RenderOptions::default();
         // A processor that plays the device would have to wait for each pass.
-        options.timing = self.options.hud && gpu.info().kind != DeviceKind::Cpu;
+        let is_wanted = self.options.hud || self.contest.is_some();
+        options.timing = is_wanted && gpu.info().kind != DeviceKind::Cpu;
         let mut renderer = Renderer::new(gpu, &options)?;
         match renderer.set_mode(self.mode, &self.options.pathtrace) {
             Err(error) if error.is_out_of_memory() => {
@@ -306,6 +342,17 @@ impl State {
         self.failures = Failures::default();
         true
     }
+}
+
+/// The backend to begin with: the one that is asked for, if the device has it.
+fn first_backend(gpu: &Gpu, asked: Option<Rays>) -> Rays {
+    let backend = asked.unwrap_or_default();
+    if backend.is_on(gpu) {
+        return backend;
+    }
+    let device = &gpu.info().name;
+    tracing::warn!("{device} has no ray-tracing pipelines: rays are traced by the software backend");
+    Rays::Software
 }
 
 /// A device in place of a lost one, which must have been dropped.

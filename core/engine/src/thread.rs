@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{DeviceInfo, Gpu, GpuError, GpuOptions};
-use afterglow_render::{Mode, PathtraceOptions};
+use afterglow_render::{Backend, Mode, PathtraceOptions};
 use parking_lot::Mutex;
 
 use crate::drawable::{Drawable, Surface};
@@ -26,6 +26,8 @@ pub struct EngineOptions {
     pub mode: Option<Mode>,
     /// How worlds are traced.
     pub pathtrace: PathtraceOptions,
+    /// What traces rays. Unless it is said, the faster backend, which is found on the first world.
+    pub backend: Option<Backend>,
     /// Show a line of figures in windows.
     pub hud: bool,
 }

@@ -55,11 +55,11 @@ shared_struct! {
         pub first_light: u32,
         /// Albedo in place of all colours, linear RGB; below 0 if there is none. Such a surface shines from its front only.
         pub base_color: [f32; 3],
+        /// How its maps are to be read: see `MapWord`.
+        pub maps: u32,
         /// Object-space distance along an axis, at most, from where rays are taken relative to in the mesh that it is part of;
         /// infinite if that is the object's origin.
         pub reach: f32,
-        /// How its maps are to be read: see `MapWord`.
-        pub maps: u32,
         pub padding: u32,
     }
 }

@@ -142,7 +142,9 @@ impl Renderer {
     /// As [`Renderer::execute_traced`].
     pub fn execute_staged(&mut self, frame: &mut Frame, scene: Scene) -> Result<(), RenderError> {
         let understood = self.tracer.as_mut().map(|tracer| tracer.stage(frame, scene));
-        self.execute_and_read(frame, None, understood.as_ref()).map(|_| ())
+        self.execute_and_read(frame, None, understood.as_ref())?;
+        self.swaps += 1;
+        Ok(())
     }
 
     /// Sets what frames become from now on.

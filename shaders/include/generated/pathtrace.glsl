@@ -30,8 +30,8 @@ struct SurfaceDraw { // 256 bytes
     uint bake;
     uint first_light;
     vec3 base_color;
-    float reach;
     uint maps;
+    float reach;
     uint padding;
 };
 #endif

@@ -16,7 +16,7 @@ use crate::failure::Failure;
 /// Bytes of a ray.
 const RAY_BYTES: u64 = 32;
 /// Least and most runs of a figure.
-const RUNS: (usize, usize) = (3, 1000);
+const RUNS: (u32, u32) = (3, 1000);
 
 /// An answer, as `shaders/include/bench/rays.glsl` has it.
 #[repr(C)]
@@ -107,7 +107,7 @@ impl Caster {
         let upload = |bytes| gpu.upload_buffer("mesh", vk::BufferUsageFlags::empty(), bytes);
         let positions = upload(bytemuck::cast_slice(&subject.mesh.0))?;
         let indices = upload(bytemuck::cast_slice(&subject.mesh.1))?;
-        let groups = [self.count() / 64, 1, 1];
+        let groups = [self.count().div_ceil(64), 1, 1];
         let scatter = |commands: &Commands<'_>, to: &Buffer, to_lamp: bool| {
             let constants = ScatterConstants {
                 primary: primary.address(),
@@ -131,7 +131,8 @@ impl Caster {
             scatter(commands, &bounce, false);
             wait(commands);
         })?;
-        let alive = (self.found_share(gpu)? * f64::from(self.count())).round() as u32;
+        let answers: Vec<Answer> = bytemuck::pod_collect_to_vec(&gpu.download_buffer(&self.answers)?);
+        let alive = answers.iter().filter(|answer| answer.found()).count() as u32;
         Ok(Rays {
             kinds: [("primary", primary, false), ("shadow", shadow, true), ("bounce", bounce, false)],
             alive,
@@ -151,71 +152,109 @@ impl Caster {
         }
     }
 
-    /// Times one structure with all kinds of rays.
+    /// Times structures with all kinds of rays; they take turns, so that a device whose clock changes is fair to all.
+    /// The first one is who the others are compared with.
     pub fn measure(
         &self,
         gpu: &Gpu,
-        structure: &dyn Structure,
+        structures: &[&dyn Structure],
         rays: &Rays,
-    ) -> Result<StructureRow, Failure> {
-        let mut row = StructureRow { structure: structure.name().to_owned(), rays: Vec::new() };
+    ) -> Result<Vec<StructureRow>, Failure> {
+        let row = |structure: &&dyn Structure| StructureRow {
+            structure: structure.name().to_owned(),
+            rays: Vec::new(),
+        };
+        let mut rows: Vec<StructureRow> = structures.iter().map(row).collect();
         for (kind, buffer, any_hit) in &rays.kinds {
-            let mut seconds = self.time_runs(gpu, structure, self.batch(buffer), *any_hit)?;
-            seconds.sort_by(f64::total_cmp);
+            let batch = self.batch(buffer);
+            let mut seconds = self.time_rounds(gpu, structures, batch, *any_hit)?;
             // Rays that start nowhere are no rays.
-            let count = if *kind == "primary" { self.count() } else { rays.alive };
-            let mrays = |seconds: f64| f64::from(count) / seconds * 1e-6;
-            row.rays.push(RayRow {
-                kind,
-                best_mrays: mrays(seconds[0]),
-                median_mrays: mrays(seconds[seconds.len() / 2]),
-                hit_share: self.found_share(gpu)? * f64::from(self.count()) / f64::from(count.max(1)),
-                runs: seconds.len(),
-            });
+            let count = f64::from(if *kind == "primary" { self.count() } else { rays.alive });
+            let mut expected = Vec::new();
+            for (number, row) in rows.iter_mut().enumerate() {
+                seconds[number].sort_by(f64::total_cmp);
+                let seconds = &seconds[number];
+                let mrays = |seconds: f64| count / seconds * 1e-6;
+                let answers = self.answers_of(gpu, structures[number], batch, *any_hit)?;
+                if number == 0 {
+                    expected = answers.clone();
+                }
+                let found = answers.iter().filter(|answer| answer.found()).count();
+                let differing = answers.iter().zip(&expected).filter(|(a, b)| a.differs(b, *any_hit)).count();
+                row.rays.push(RayRow {
+                    kind,
+                    best_mrays: mrays(seconds[0]),
+                    median_mrays: mrays(seconds[seconds.len() / 2]),
+                    hit_share: found as f64 / count.max(1.0),
+                    differing,
+                    runs: seconds.len(),
+                });
+            }
         }
-        Ok(row)
+        Ok(rows)
     }
 
-    /// Seconds of each of several runs, after one that is not counted.
-    fn time_runs(
+    /// Seconds of each structure's runs, after one of each that is not counted.
+    fn time_rounds(
         &self,
         gpu: &Gpu,
-        structure: &dyn Structure,
+        structures: &[&dyn Structure],
         batch: Batch,
         any_hit: bool,
-    ) -> Result<Vec<f64>, Failure> {
-        let mut timer = gpu.create_timer(1)?;
-        let mut seconds = Vec::new();
+    ) -> Result<Vec<Vec<f64>>, Failure> {
+        let mut timer = gpu.create_timer(structures.len() as u32)?;
+        let mut seconds = vec![Vec::new(); structures.len()];
         let mut began = Instant::now();
-        for run in 0..=RUNS.1 {
+        for round in 0..=RUNS.1 {
             gpu.run(|commands| {
                 timer.restart(commands);
-                let scope = timer.begin(commands, "rays");
-                structure.trace(commands, batch, any_hit);
-                timer.end(commands, scope);
-                wait(commands);
+                for structure in structures {
+                    let scope = timer.begin(commands, structure.name());
+                    structure.trace(commands, batch, any_hit);
+                    wait(commands);
+                    timer.end(commands, scope);
+                }
             })?;
-            if run == 0 {
+            if round == 0 {
                 began = Instant::now();
                 continue;
             }
-            let timing = timer.results()?;
-            let Some(timing) = timing.first().filter(|timing| timing.nanoseconds > 0) else {
+            let timings = timer.results()?;
+            if timings.len() < structures.len() || timings.iter().any(|timing| timing.nanoseconds == 0) {
                 return Err(Failure::Check("the device tells no time".to_owned()));
-            };
-            seconds.push(timing.nanoseconds as f64 * 1e-9);
-            if seconds.len() >= RUNS.0 && began.elapsed() >= self.time {
+            }
+            for (seconds, timing) in seconds.iter_mut().zip(&timings) {
+                seconds.push(timing.nanoseconds as f64 * 1e-9);
+            }
+            if round >= RUNS.0 && began.elapsed() >= self.time * structures.len() as u32 {
                 break;
             }
         }
         Ok(seconds)
     }
 
-    /// The share of the last answers that are hits.
-    fn found_share(&self, gpu: &Gpu) -> Result<f64, GpuError> {
-        let answers: Vec<Answer> = bytemuck::pod_collect_to_vec(&gpu.download_buffer(&self.answers)?);
-        let found = answers.iter().filter(|answer| answer.found_and_front & 1 != 0).count();
-        Ok(found as f64 / answers.len().max(1) as f64)
+    /// What a structure answers.
+    fn answers_of(
+        &self,
+        gpu: &Gpu,
+        structure: &dyn Structure,
+        batch: Batch,
+        any_hit: bool,
+    ) -> Result<Vec<Answer>, GpuError> {
+        gpu.run(|commands| structure.trace(commands, batch, any_hit))?;
+        Ok(bytemuck::pod_collect_to_vec(&gpu.download_buffer(&self.answers)?))
+    }
+}
+
+impl Answer {
+    fn found(&self) -> bool {
+        self.found_and_front & 1 != 0
+    }
+
+    /// Whether two answers to the same ray are different ones: of ties and of rays at edges a few are.
+    fn differs(&self, other: &Self, any_hit: bool) -> bool {
+        let (found, near) = (self.found(), (self.t - other.t).abs() <= 1e-4 * other.t.abs().max(1e-3));
+        found != other.found() || (found && !any_hit && !near)
     }
 }
 

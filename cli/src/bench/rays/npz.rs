@@ -39,24 +39,25 @@ fn read_triples<T: Deserialize + Copy>(
 fn triples<T: Deserialize + Copy>(bytes: impl Read) -> Result<Vec<[T; 3]>, String> {
     let array = NpyFile::new(bytes).map_err(|error| error.to_string())?;
     let shape = array.shape().to_vec();
-    if shape.len() != 2 || shape[1] != 3 || array.order() != Order::C {
-        return Err(format!("of shape {shape:?}, not (n, 3) row by row"));
+    if shape.len() != 2 || shape[1] != 3 {
+        return Err(format!("of shape {shape:?}, not (n, 3)"));
     }
     if shape[0] > MOST_NUMBERS / 3 {
         return Err(format!("{} rows are too many", shape[0]));
     }
+    let by_columns = array.order() == Order::Fortran;
     let numbers = array.data::<T>().map_err(|error| error.to_string())?;
     // Grows as numbers come: a header can claim what does not follow.
-    let mut rows = Vec::new();
-    let mut row = Vec::with_capacity(3);
+    let mut all = Vec::new();
     for number in numbers {
-        row.push(number.map_err(|error| error.to_string())?);
-        if let [a, b, c] = row[..] {
-            rows.push([a, b, c]);
-            row.clear();
-        }
+        all.push(number.map_err(|error| error.to_string())?);
     }
-    Ok(rows)
+    let count = all.len() / 3;
+    let row = |row: usize| match by_columns {
+        true => [all[row], all[count + row], all[2 * count + row]],
+        false => [all[3 * row], all[3 * row + 1], all[3 * row + 2]],
+    };
+    Ok((0..count).map(row).collect())
 }
 
 #[cfg(test)]
@@ -87,7 +88,8 @@ mod tests {
             assert!(triples::<u32>(&npy(&header, &[0; 24])[..]).is_err(), "{shape}");
         }
         let turned = "{'descr': '<u4', 'fortran_order': True, 'shape': (2, 3), }";
-        assert!(triples::<u32>(&npy(turned, &[0; 24])[..]).is_err());
+        let bytes = npy(turned, bytemuck::cast_slice(&[1u32, 4, 2, 5, 3, 6]));
+        assert_eq!(triples::<u32>(&bytes[..]), Ok(vec![[1, 2, 3], [4, 5, 6]]));
         assert!(triples::<u32>(&b"no array"[..]).is_err());
         let claims = "{'descr': '<u4', 'fortran_order': False, 'shape': (60000000, 3), }";
         assert!(triples::<u32>(&npy(claims, &[0; 24])[..]).is_err());

@@ -42,6 +42,8 @@ pub struct RayRow {
     pub median_mrays: f64,
     /// Rays that met something, 0 to 1.
     pub hit_share: f64,
+    /// Answers that are others than the yardstick's.
+    pub differing: usize,
     /// How many runs.
     pub runs: usize,
 }
@@ -83,13 +85,14 @@ impl SubjectRow {
                 let yardstick = self.structures[0].rays.get(number).map_or(f64::NAN, |rays| rays.best_mrays);
                 writeln!(
                     out,
-                    "  {:<9} {:<8} {:>9.2} {:>9.2} {:>6.2}   {:.2} % hit, {} runs",
+                    "  {:<9} {:<8} {:>9.2} {:>9.2} {:>6.2}   {:.2} % hit, {} differ, {} runs",
                     structure.structure,
                     rays.kind,
                     rays.best_mrays,
                     rays.median_mrays,
                     rays.best_mrays / yardstick,
                     100.0 * rays.hit_share,
+                    rays.differing,
                     rays.runs
                 )?;
             }

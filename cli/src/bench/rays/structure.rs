@@ -93,7 +93,6 @@ impl Structure for Plain {
 }
 
 /// The driver's structures. None where they are not there.
-#[expect(clippy::unnecessary_wraps, reason = "building what a driver has can fail")]
 pub fn hardware(_gpu: &Gpu, _subject: &Subject) -> Result<Option<Box<dyn Structure>>, Failure> {
     Ok(None)
 }

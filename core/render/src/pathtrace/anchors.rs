@@ -49,7 +49,8 @@ impl Anchor {
     pub(crate) fn of(reach: Reach) -> Self {
         let middle = 0.5 * reach.least + 0.5 * reach.greatest;
         let half = (0.5 * reach.greatest - 0.5 * reach.least).max_element();
-        if !middle.is_finite() || !(middle.abs().max_element() > FAR * half) {
+        let is_far = middle.is_finite() && middle.abs().max_element() > FAR * half;
+        if !is_far {
             return Self::ORIGIN;
         }
         // Differences of numbers within a factor of two are exact; where corners lie about 0 they stay as they are.

@@ -122,6 +122,11 @@ impl<'a> DriverInput<'a> {
     }
 }
 
+/// A hash of all but the positions of a mesh: its members, and what of them rays can meet. None if that is nothing.
+pub(super) fn topology(shapes: &Shapes<'_>) -> Option<u64> {
+    DriverInput::new(shapes).map(|input| input.topology)
+}
+
 /// As for the software backend: all corners near enough, and some area.
 fn can_be_met(corners: &[[f32; 3]; 3]) -> bool {
     // What is not a number fails the comparison.

@@ -4,7 +4,6 @@
 //! last frame is gone and another has the same triangles in the same order, only moved, its structure is updated: which of
 //! the triangles can be met is part of what must be the same.
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 use afterglow_bvh::Aabb;
@@ -18,6 +17,7 @@ use hashbrown::HashMap;
 
 use super::compaction::Compaction;
 use super::driver_input::{DriverInput, Kind};
+use super::formers::Formers;
 use super::structures::{IDLE_FRAMES, MeshInput, Placed, TopLevel, longest_side};
 use crate::uploads::UploadArena;
 
@@ -75,9 +75,7 @@ pub(crate) struct HardwareStructures {
     scratch: BuildScratch,
     entries: HashMap<u64, Entry>,
     frame: u64,
-    /// Changing meshes that the last frame used, by topology, and those that this frame uses, in order.
-    reusable: HashMap<u64, VecDeque<u64>>,
-    changing: Vec<u64>,
+    formers: Formers,
     builds: Vec<Build>,
     compaction: Compaction,
     top: Option<AccelerationStructure>,
@@ -95,8 +93,7 @@ impl HardwareStructures {
             scratch: gpu.create_build_scratch(SCRATCH_BYTES)?,
             entries: HashMap::new(),
             frame: 0,
-            reusable: HashMap::new(),
-            changing: Vec::new(),
+            formers: Formers::default(),
             builds: Vec::new(),
             compaction: Compaction::default(),
             top: None,
@@ -114,12 +111,7 @@ impl HardwareStructures {
         self.top_build = None;
         let frame = self.frame;
         self.entries.retain(|_, entry| entry.used + IDLE_FRAMES > frame);
-        self.reusable.clear();
-        for content in self.changing.drain(..) {
-            if let Some(changing) = self.entries.get(&content).and_then(|entry| entry.changing) {
-                self.reusable.entry(changing.topology).or_default().push_back(content);
-            }
-        }
+        self.formers.begin_frame();
         self.compaction.begin_frame(&self.gpu, frame)?;
         for copy in &self.compaction.copies {
             if let Some(Entry { mesh: Some(mesh), .. }) = self.entries.get_mut(&copy.content) {
@@ -138,8 +130,8 @@ impl HardwareStructures {
         let Some(entry) = self.entries.get_mut(&content) else {
             return false;
         };
-        if entry.used != self.frame && entry.changing.is_some() {
-            self.changing.push(content);
+        if let Some(changing) = entry.changing.filter(|_| entry.used != self.frame) {
+            self.formers.note(changing.topology, content);
         }
         entry.used = self.frame;
         entry.mesh.is_some()
@@ -155,10 +147,7 @@ impl HardwareStructures {
             Some(driver_input) => self.place(content, &driver_input, input.is_lasting, arena)?,
             None => Entry::default(),
         };
-        self.entries.insert(content, Entry { used: self.frame, ..entry });
-        if !input.is_lasting {
-            self.changing.push(content);
-        }
+        self.entries.insert(content, entry);
         Ok(())
     }
 
@@ -200,13 +189,12 @@ impl HardwareStructures {
             scratch_bytes: if is_update { sizes.update } else { sizes.build },
         });
         let mesh = Mesh { structure, bounds: input.bounds, kind: input.kind };
-        Ok(Entry { mesh: Some(mesh), changing: (!is_lasting).then_some(changing), used: self.frame })
+        Ok(Entry { mesh: Some(mesh), changing: (!is_lasting).then_some(changing), used: 0 })
     }
 
     /// The structure of a mesh that the last frame used and this one does not.
     fn former(&mut self, topology: u64) -> Option<(Arc<AccelerationStructure>, Changing)> {
-        let candidates = self.reusable.get_mut(&topology)?;
-        while let Some(content) = candidates.pop_front() {
+        while let Some(content) = self.formers.next(topology) {
             if self.entries.get(&content).is_some_and(|entry| entry.used == self.frame) {
                 continue;
             }

@@ -1,4 +1,6 @@
 //! Structures of the software backend: bottom levels on the device, found by their content, and a top level a frame.
+//! Where a mesh that does not last is gone and another has the same triangles in the same order, only moved, its structure
+//! moves with them.
 
 use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
 use afterglow_bvh::{
@@ -8,6 +10,9 @@ use afterglow_gpu::{Commands, Gpu, GpuError, vk};
 use afterglow_records::MEMBER_SHIFT;
 use hashbrown::HashMap;
 
+use super::driver_input::topology;
+use super::formers::Formers;
+use super::refit::Movable;
 use super::slabs::{Part, Slabs};
 use super::structures::{IDLE_FRAMES, Member, MeshInput, Placed, Shapes, TopLevel, longest_side};
 use crate::uploads::{Upload, UploadArena};
@@ -26,6 +31,8 @@ struct Entry {
     /// None if the mesh has no triangles that can be hit.
     mesh: Option<Mesh>,
     part: Option<Part>,
+    /// Of meshes that do not last: a hash of all but the positions, and the structure.
+    movable: Option<(u64, Movable)>,
     used: u64,
 }
 
@@ -42,6 +49,7 @@ struct MeshCopy {
 pub(crate) struct Meshes {
     slabs: Slabs,
     entries: HashMap<u64, Entry>,
+    formers: Formers,
     frame: u64,
     copies: Vec<MeshCopy>,
     /// Triangles built in this frame.
@@ -50,7 +58,14 @@ pub(crate) struct Meshes {
 
 impl Meshes {
     pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self { slabs: Slabs::new(gpu), entries: HashMap::new(), frame: 0, copies: Vec::new(), built: 0 }
+        Self {
+            slabs: Slabs::new(gpu),
+            entries: HashMap::new(),
+            formers: Formers::default(),
+            frame: 0,
+            copies: Vec::new(),
+            built: 0,
+        }
     }
 
     /// A new frame begins: what was not used for long goes.
@@ -59,6 +74,7 @@ impl Meshes {
         self.copies.clear();
         self.built = 0;
         self.slabs.begin_frame();
+        self.formers.begin_frame();
         let (frame, slabs) = (self.frame, &mut self.slabs);
         self.entries.retain(|_, entry| {
             let is_kept = entry.used + IDLE_FRAMES > frame;
@@ -76,60 +92,74 @@ impl Meshes {
 
     /// Says that this frame uses a mesh, and whether rays can meet anything of it.
     pub(crate) fn take(&mut self, content: u64) -> bool {
-        self.entries.get_mut(&content).is_some_and(|entry| {
-            entry.used = self.frame;
-            entry.mesh.is_some()
-        })
+        let Some(entry) = self.entries.get_mut(&content) else {
+            return false;
+        };
+        if let (Some((topology, _)), true) = (&entry.movable, entry.used != self.frame) {
+            self.formers.note(*topology, content);
+        }
+        entry.used = self.frame;
+        entry.mesh.is_some()
     }
 
-    /// Builds a mesh.
+    /// Builds a mesh, or moves one that the last frame used and this one does not.
     pub(crate) fn build(
         &mut self,
         content: u64,
         input: &MeshInput<'_>,
         arena: &mut UploadArena,
     ) -> Result<(), GpuError> {
+        let mut movable = None;
         match input.shapes {
-            Shapes::Triangles { corners, members } => {
-                let attributes = attributes(members);
-                let indices: Vec<[u32; 3]> = (0..attributes.len() as u32)
-                    .map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2])
-                    .collect();
-                let quality = match input.is_lasting && attributes.len() <= MOST_IMPROVED {
-                    true => Quality::Good,
-                    false => Quality::Fast,
-                };
-                let input = BlasInput {
-                    positions: corners,
-                    indices: &indices,
-                    attributes: &attributes,
-                    ..BlasInput::default()
-                };
-                self.insert(content, &input, quality, arena)
-            }
             Shapes::Spheres(spheres) => {
-                let input = BlasInput { spheres, ..BlasInput::default() };
-                self.insert(content, &input, Quality::Fast, arena)
+                self.built += spheres.len();
+                let blas = built(&BlasInput { spheres, ..BlasInput::default() }, Quality::Fast);
+                self.insert(content, blas.as_ref(), arena)?;
+            }
+            Shapes::Triangles { corners, members } if input.is_lasting => {
+                self.built += corners.len() / 3;
+                let is_small = corners.len() / 3 <= MOST_IMPROVED;
+                let quality = if is_small { Quality::Good } else { Quality::Fast };
+                self.insert(content, of_triangles(corners, members, quality).as_ref(), arena)?;
+            }
+            Shapes::Triangles { corners, members } => {
+                self.built += corners.len() / 3;
+                let topology = topology(&input.shapes);
+                let moved = topology.and_then(|topology| self.former(topology)?.moved(corners, members));
+                let anew = || of_triangles(corners, members, Quality::Fast).map(Movable::new);
+                movable = topology.zip(moved.or_else(anew));
+                self.insert(content, movable.as_ref().map(|(_, movable)| &movable.blas), arena)?;
             }
         }
+        if let Some(entry) = self.entries.get_mut(&content) {
+            entry.movable = movable;
+        }
+        Ok(())
     }
 
-    fn insert(
-        &mut self,
-        content: u64,
-        input: &BlasInput<'_>,
-        quality: Quality,
-        arena: &mut UploadArena,
-    ) -> Result<(), GpuError> {
-        self.built += input.indices.len() + input.spheres.len();
-        let blas = build_blas_with(input, quality)
-            .map_err(|error| tracing::warn!("a mesh is left out: {error}"))
-            .ok()
-            .filter(|blas| blas.triangle_count > 0);
-        let entry = match blas {
-            Some(blas) => self.place(&blas, arena)?,
-            None => Entry { mesh: None, part: None, used: self.frame },
-        };
+    /// The structure of a mesh that the last frame used and this one does not.
+    fn former(&mut self, topology: u64) -> Option<Movable> {
+        while let Some(content) = self.formers.next(topology) {
+            if self.entries.get(&content).is_some_and(|entry| entry.used == self.frame) {
+                continue;
+            }
+            if let Some(entry) = self.entries.remove(&content) {
+                if let Some(part) = entry.part {
+                    self.slabs.free(part);
+                }
+                return entry.movable.map(|(_, movable)| movable);
+            }
+        }
+        None
+    }
+
+    fn insert(&mut self, content: u64, blas: Option<&Blas>, arena: &mut UploadArena) -> Result<(), GpuError> {
+        let mut entry = Entry { mesh: None, part: None, movable: None, used: 0 };
+        if let Some(blas) = blas {
+            let part = self.upload(&blas.words, arena)?;
+            entry.mesh = Some(Mesh { address: part.address, bounds: blas.bounds });
+            entry.part = Some(part);
+        }
         self.entries.insert(content, entry);
         Ok(())
     }
@@ -188,12 +218,6 @@ impl Meshes {
         Ok(address)
     }
 
-    fn place(&mut self, blas: &Blas, arena: &mut UploadArena) -> Result<Entry, GpuError> {
-        let part = self.upload(&blas.words, arena)?;
-        let mesh = Mesh { address: part.address, bounds: blas.bounds };
-        Ok(Entry { mesh: Some(mesh), part: Some(part), used: self.frame })
-    }
-
     fn upload(&mut self, words: &[u32], arena: &mut UploadArena) -> Result<Part, GpuError> {
         let bytes: &[u8] = bytemuck::cast_slice(words);
         let part = self.slabs.allocate(bytes.len() as u64)?;
@@ -202,6 +226,24 @@ impl Meshes {
         }
         Ok(part)
     }
+}
+
+/// A structure; none if there is nothing to meet.
+fn built(input: &BlasInput<'_>, quality: Quality) -> Option<Blas> {
+    build_blas_with(input, quality)
+        .map_err(|error| tracing::warn!("a mesh is left out: {error}"))
+        .ok()
+        .filter(|blas| blas.triangle_count > 0)
+}
+
+fn of_triangles(corners: &[[f32; 3]], members: &[Member], quality: Quality) -> Option<Blas> {
+    let attributes = attributes(members);
+    let indices: Vec<[u32; 3]> = (0..attributes.len() as u32)
+        .map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2])
+        .collect();
+    let input =
+        BlasInput { positions: corners, indices: &indices, attributes: &attributes, ..BlasInput::default() };
+    built(&input, quality)
 }
 
 /// What hits report of the members' triangles, in order.

@@ -138,7 +138,7 @@ impl Default for PathtraceOptions {
             light_choice: LightChoice::Resampled,
             candidates: 4,
             asked: 4,
-            keeps_lights: true,
+            keeps_lights: false,
             most_radiance: 16.0,
             keeps_radiance: false,
             spp: 2,

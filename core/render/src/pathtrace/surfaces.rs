@@ -125,8 +125,8 @@ pub(crate) fn surface_draw(
         bake: BAKE_NONE,
         first_light: NO_LIGHT,
         base_color: [-1.0; 3],
-        reach: f32::INFINITY,
         maps: 0,
+        reach: f32::INFINITY,
         padding: 0,
     }
 }

@@ -85,7 +85,7 @@ SurfacePoint surface_point(ViewRecord view, Hit hit, vec3 direction) {
     normal = is_towards ? normal : -normal;
     vec3 position = first + edge_1 * weights.y + edge_2 * weights.z;
     SurfacePoint point = shining_point(vec3(0.0), NO_LIGHT);
-    point.start = offset_ray(position, normal) + normal * start_distance(draw, dehomogenized(positions[0]));
+    point.start = offset_ray(position, normal) + normal * start_distance(draw, positions);
     point.normal = normal;
     point.geometric = normal;
     point.light = draw.it.first_light == NO_LIGHT ? NO_LIGHT : draw.it.first_light + triangle;

@@ -79,9 +79,13 @@ bool mirrors(mat3x4 rows) {
 
 // How far a point's rays must start from it, so that they do not meet its own triangle: rays are rounded where they enter
 // an instance, the more so, the farther the object reaches.
-float start_distance(DrawReference draw, vec3 position_object) {
+float start_distance(DrawReference draw, vec4 corners_object[3]) {
     mat3x4 rows = draw.it.object_to_world;
-    vec3 reach = min(abs(position_object), draw.it.reach);
+    vec3 reach = vec3(0.0);
+    [[dont_unroll]] for (uint i = 0u; i < 3u; ++i) {
+        reach = max(reach, abs(dehomogenized(corners_object[i])));
+    }
+    reach = min(reach, draw.it.reach);
     vec3 world = vec3(dot(abs(rows[0].xyz), reach), dot(abs(rows[1].xyz), reach), dot(abs(rows[2].xyz), reach));
     return 4e-6 * max(max(world.x, world.y), world.z);
 }

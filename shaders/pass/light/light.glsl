@@ -46,7 +46,7 @@ vec3 limited(ViewRecord view, vec3 light) {
     }
     vec3 kept = light * (view.most_radiance / brightest);
     atomicAdd(Counters(view.counters).entries[0].limited, 1u);
-    atomicAdd(Counters(view.counters).entries[0].removed, uint(min(luminance(light - kept) * 16.0, 65536.0)));
+    atomicAdd(Counters(view.counters).entries[0].removed, uint(min(luminance(light - kept) * 16.0, 65536.0) + 0.5));
     return kept;
 }
 

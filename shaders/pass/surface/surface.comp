@@ -172,7 +172,7 @@ SurfaceTexel seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint tr
 
     SurfaceTexel texel;
     texel.start = offset_ray(facing.start, facing.geometric)
-        + facing.geometric * start_distance(draw, dehomogenized(positions[0]));
+        + facing.geometric * start_distance(draw, positions);
     texel.normal = pack_unit_vector(facing.normal);
     texel.geometric = pack_unit_vector(facing.geometric);
     // In perspective, w is the distance along the view.

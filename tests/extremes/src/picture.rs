@@ -12,7 +12,7 @@ pub struct Estimate {
 impl Estimate {
     /// Whether a value is within four standard errors, and this share of it for rounding.
     pub fn agrees(self, value: f64, rounding: f64) -> bool {
-        (self.mean - value).abs() <= 4.0 * self.error + rounding * value.abs()
+        self.error.is_finite() && (self.mean - value).abs() <= 4.0 * self.error + rounding * value.abs()
     }
 
     /// Whether two estimates are within four standard errors of their difference.

@@ -8,7 +8,7 @@ use glam::Vec3;
 
 /// A mesh is built about a place of its own if that is so many times as far from its origin as the mesh is large. Below that
 /// little is gained, and meshes that meet at an edge are better off in the same coordinates.
-const FAR: f32 = 256.0;
+const FAR: f32 = 64.0;
 
 /// The box of corners in object space, those left out that are no numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn what_is_near_or_nowhere_stays() {
         for corners in
-            [vec![[100.0, 0.0, 0.0], [101.0, 0.0, 0.0]], vec![], vec![[f32::INFINITY; 3]], vec![[0.0; 3]]]
+            [vec![[10.0, 0.0, 0.0], [11.0, 0.0, 0.0]], vec![], vec![[f32::INFINITY; 3]], vec![[0.0; 3]]]
         {
             assert_eq!(Anchor::of(Reach::of(&corners)), Anchor::ORIGIN);
         }

@@ -80,9 +80,9 @@ impl KeptLights {
             (keeps && is_sound).then(|| Before { clip_from_world, origin, lights: numbers(lights) });
     }
 
-    /// Nothing of the frames before is seen any more.
+    /// Nothing of the frames before is seen any more: what follows is the same as if there had been none.
     pub(crate) fn forget(&mut self) {
-        self.before = None;
+        *self = Self::default();
     }
 }
 

@@ -6,7 +6,7 @@
 use afterglow_gl::frame::{Draw, Frame, VertexSource};
 use afterglow_gpu::{Gpu, GpuError};
 use afterglow_records::{MASK_STATIC, MEMBER_OF_LIGHTS, MEMBER_SHIFT, MeshMember};
-use glam::{DVec3, Mat4, Vec3};
+use glam::{DMat3, DVec3, Mat4, Vec3};
 use hashbrown::HashMap;
 use xxhash_rust::xxh3::{Xxh3, xxh3_64_with_seed};
 
@@ -58,6 +58,19 @@ struct Group {
     draws: Vec<usize>,
     members: usize,
     reach: Reach,
+    /// The matrix cannot be undone, so that rays have no place in object space: the mesh is built in the world.
+    is_flat: bool,
+}
+
+impl Group {
+    /// From where the mesh is built to the world.
+    fn placing(&self) -> Mat4 {
+        if self.is_flat { Mat4::IDENTITY } else { self.model }
+    }
+
+    fn anchor(&self) -> Anchor {
+        if self.is_flat { Anchor::ORIGIN } else { Anchor::of(self.reach) }
+    }
 }
 
 /// What groups are found by: the matrix's bits, the mask, the block.
@@ -111,7 +124,7 @@ impl WorldBuilder {
         self.reaches.clear();
         self.reaches.resize(traced.len(), f32::INFINITY);
         for (content, group) in &groups {
-            let anchor = Anchor::of(group.reach);
+            let anchor = group.anchor();
             group.draws.iter().for_each(|&draw| self.reaches[draw] = anchor.reach);
             if !self.structures.has(*content) {
                 self.build_mesh(frame, group, traced, *content, arena)?;
@@ -119,7 +132,7 @@ impl WorldBuilder {
             if self.structures.take(*content) {
                 placed.push(Placed {
                     content: *content,
-                    object_to_world: anchored(&group.model, anchor.place, origin),
+                    object_to_world: anchored(&group.placing(), anchor.place, origin),
                     id: members.len() as u32,
                     mask: group.mask,
                 });
@@ -162,7 +175,12 @@ impl WorldBuilder {
                 is_alpha_tested: traced.is_alpha_tested,
             }));
         }
-        Anchor::of(group.reach).subtract_from(&mut corners);
+        if group.is_flat {
+            let model = group.model.as_dmat4();
+            let placed = |corner: &[f32; 3]| model.transform_point3(Vec3::from(*corner).as_dvec3()).as_vec3();
+            corners.iter_mut().for_each(|corner| *corner = placed(corner).to_array());
+        }
+        group.anchor().subtract_from(&mut corners);
         let shapes = Shapes::Triangles { corners: &corners, members: &members };
         self.structures.build(content, &MeshInput { shapes, is_lasting: group.is_lasting }, arena)
     }
@@ -227,6 +245,7 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
             draws: vec![index],
             members,
             reach: traced.triangles.reach,
+            is_flat: is_flat(&traced.model),
         };
         if new.is_lasting && traced.block.is_none() {
             groups.push(new);
@@ -248,9 +267,21 @@ fn groups(traced: &[Traced<'_>]) -> Vec<Group> {
     groups
 }
 
+/// Whether a matrix makes flat what is not, as far as f32 can tell.
+fn is_flat(model: &Mat4) -> bool {
+    const LEAST_VOLUME: f64 = 1e-6;
+    let linear = DMat3::from_mat4(model.as_dmat4());
+    let sides: f64 = [linear.x_axis, linear.y_axis, linear.z_axis].iter().map(|side| side.length()).product();
+    // Also where these are no numbers.
+    !(linear.determinant().abs() > LEAST_VOLUME * sides)
+}
+
 /// What a mesh is made of: its draws' triangles in order.
 fn content_of(group: &Group, traced: &[Traced<'_>]) -> u64 {
     let mut hasher = Xxh3::new();
+    if group.is_flat {
+        hasher.update(bytemuck::bytes_of(&group.model.to_cols_array()));
+    }
     for &index in &group.draws {
         let traced = &traced[index];
         hasher.update(&traced.triangles.hash.to_le_bytes());
@@ -312,6 +343,16 @@ mod tests {
         assert_eq!((first.instances, built), (2, 6));
         assert_eq!(world(&mut builder, &frame(0.25)).1, 0);
         assert_eq!(world(&mut builder, &frame(0.75)).1, 4);
+    }
+
+    #[test]
+    fn flat_is_what_cannot_be_undone() {
+        for flat in [glam::Vec3::new(1.0, 0.0, 1.0), glam::Vec3::ZERO, glam::Vec3::NAN] {
+            assert!(is_flat(&Mat4::from_scale(flat)), "{flat}");
+        }
+        for solid in [glam::Vec3::new(1e3, 1e-3, 1.0), glam::Vec3::splat(-1e-10), glam::Vec3::splat(1e10)] {
+            assert!(!is_flat(&Mat4::from_scale(solid)), "{solid}");
+        }
     }
 
     #[test]

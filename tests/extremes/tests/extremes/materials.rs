@@ -10,7 +10,7 @@ use crate::closed_forms::{floor, room, spot};
 #[test]
 fn roughness_that_is_none() {
     for roughness in [0.0, 1e-4, 1e-3, -1.0, f32::NAN, f32::NEG_INFINITY] {
-        for cosine in [1.0, 0.5, 0.05_f64] {
+        for cosine in [1.0, 0.05_f64] {
             let eye = DVec3::new((1.0 - cosine * cosine).sqrt(), cosine, 0.0) * 5.0;
             let world = spot(World::new(8).sky(1.0).with(floor(1.0), metal(roughness)), eye);
             let picture = reference(&world, &Shot::of(16));

@@ -10,27 +10,27 @@ use crate::closed_forms::room;
 #[test]
 fn far_from_the_origin() {
     // Corners are whole numbers at this scale, so that nothing of them is lost.
-    let near = room(32).moved(DVec3::ZERO, 160.0);
-    let expected = reference(&near, &Shot::of(128));
-    for away in [1e4, 1e5, 1e6] {
-        let far = room(32).moved(DVec3::new(away, -away, away), 160.0);
-        let picture = reference(&far, &Shot::of(128).with(|options| options.seed = 1));
+    let near = room(24).moved(DVec3::ZERO, 160.0);
+    let expected = reference(&near, &Shot::of(64));
+    for away in [1e5, 1e6] {
+        let far = room(24).moved(DVec3::new(away, -away, away), 160.0);
+        let picture = reference(&far, &Shot::of(64).with(|options| options.seed = 1));
         picture.assert_sound(&format!("{away} away"));
         picture.assert_same(&expected, 8, 2e-3, &format!("{away} away"));
-        pathtrace(&far, &Shot::of(4)).assert_sound(&format!("{away} away"));
+        pathtrace(&far, &Shot::of(1)).assert_sound(&format!("{away} away"));
     }
 }
 
 /// There is no length that means anything by itself.
 #[test]
 fn any_scale_is_the_same() {
-    let expected = reference(&room(32), &Shot::of(128));
+    let expected = reference(&room(24), &Shot::of(64));
     for scale in [1e-4, 1e-2, 1e2, 1e4] {
-        let scaled = room(32).moved(DVec3::ZERO, scale);
-        let picture = reference(&scaled, &Shot::of(128).with(|options| options.seed = 1));
+        let scaled = room(24).moved(DVec3::ZERO, scale);
+        let picture = reference(&scaled, &Shot::of(64).with(|options| options.seed = 1));
         picture.assert_sound(&format!("scale {scale}"));
         picture.assert_same(&expected, 8, 1e-3, &format!("scale {scale}"));
-        pathtrace(&scaled, &Shot::of(4)).assert_sound(&format!("scale {scale}"));
+        pathtrace(&scaled, &Shot::of(1)).assert_sound(&format!("scale {scale}"));
     }
 }
 
@@ -38,8 +38,8 @@ fn any_scale_is_the_same() {
 /// near and far, and its corners are near and far.
 #[test]
 fn planes_do_not_hide_themselves() {
-    for size in [1.0, 1e3, 1e5, 1e6] {
-        for away in [1e-2, 1.0, 1e3, 1e5] {
+    for size in [1.0, 1e3, 1e6] {
+        for away in [1e-2, 1.0, 1e5] {
             for corner in [Vec3::new(-0.37, 0.11, -0.61), Vec3::ZERO, Vec3::new(1e3, 1e3, 1e3)] {
                 let (across, along) = (Vec3::new(0.8, 0.1, 0.2) * size, Vec3::new(-0.1, 0.3, 0.9) * size);
                 let plane = quad(corner * size, along, across);
@@ -49,11 +49,10 @@ fn planes_do_not_hide_themselves() {
                 let eye = middle + away * (normal + 0.7 * (b - a).normalize());
                 let world = World::new(16).sky(1.0).with(plane, lambert(1.0)).seen_from(eye, middle, 0.2);
                 let what = format!("size {size}, {away} away, corner {corner}");
-                let picture =
-                    reference(&world, &Shot::of(16).with(|options| options.target = Target::Direct));
+                let picture = reference(&world, &Shot::of(8).with(|options| options.target = Target::Direct));
                 picture.assert_sound(&what);
                 picture.whole().assert(1.0, 1e-4, &what);
-                pathtrace(&world, &Shot::of(2)).assert_sound(&what);
+                pathtrace(&world, &Shot::of(1)).assert_sound(&what);
             }
         }
     }

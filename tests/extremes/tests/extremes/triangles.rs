@@ -162,7 +162,7 @@ fn flattened_objects() {
 /// A room under a mirroring matrix is the mirrored room, lights that are triangles too.
 #[test]
 fn mirrored_rooms() {
-    let mut world = room(32);
+    let mut world = room(16);
     let count = world.file.triangles.corners.len();
     world.file.objects.push(Object { name: "all".into(), first_triangle: 0, triangle_count: count });
     let mirror = DVec3::new(-1.0, 1.0, 1.0);
@@ -182,6 +182,6 @@ fn mirrored_rooms() {
     world.file.frames.push(still);
     let pictures = both(&world, 1).map(|picture| mirrored(&picture));
     let expected =
-        [Mode::Reference, Mode::Pathtrace].map(|mode| Shot::of(96).render(mode, staged(&room(32))));
+        [Mode::Reference, Mode::Pathtrace].map(|mode| Shot::of(96).render(mode, staged(&room(16))));
     assert_alike(&pictures, &expected, "a mirrored room");
 }

@@ -20,7 +20,7 @@ pub(crate) fn assert_alike(pictures: &[Picture; 2], expected: &[Picture; 2], wha
 }
 
 fn with_projection(projection: DMat4) -> World {
-    let mut world = room(32);
+    let mut world = room(16);
     world.file.view.projection = projection;
     world
 }
@@ -28,7 +28,7 @@ fn with_projection(projection: DMat4) -> World {
 /// Planes of the projection are no part of what rays see.
 #[test]
 fn near_and_far_planes() {
-    let expected = both(&room(32), 64);
+    let expected = both(&room(16), 64);
     let far = glam::dcamera::rh::proj::opengl::perspective(1.3, 1.0, 1e-3, 1e9);
     let mut infinite = far;
     (infinite.z_axis.z, infinite.w_axis.z) = (-1.0, -2e-3);
@@ -40,19 +40,16 @@ fn near_and_far_planes() {
 /// A frustum to one side sees what is there in the whole picture.
 #[test]
 fn frustum_to_one_side() {
-    let whole = reference(&room(32), &Shot::of(128));
+    let whole = reference(&room(16), &Shot::of(128));
     let right =
         DMat4::from_translation(DVec3::new(-1.0, 0.0, 0.0)) * DMat4::from_scale(DVec3::new(2.0, 1.0, 1.0));
-    let mut world = with_projection(right * room(32).file.view.projection);
-    world.file.size = [16, 32];
+    let mut world = with_projection(right * room(16).file.view.projection);
+    world.file.size = [8, 16];
     let picture = reference(&world, &Shot::of(128).with(|options| options.seed = 1));
     picture.assert_sound("a frustum to one side");
-    for y in 0..4 {
-        for x in 0..2 {
-            let (own, theirs) =
-                (picture.block([x * 8, y * 8], [8, 8]), whole.block([16 + x * 8, y * 8], [8, 8]));
-            assert!(own.agrees_with(theirs, 0.0), "{own:?}, {theirs:?}");
-        }
+    for y in 0..2 {
+        let (own, theirs) = (picture.block([0, y * 8], [8, 8]), whole.block([8, y * 8], [8, 8]));
+        assert!(own.agrees_with(theirs, 0.0), "{own:?}, {theirs:?}");
     }
 }
 
@@ -68,15 +65,15 @@ pub(crate) fn mirrored(picture: &Picture) -> Picture {
 #[test]
 fn mirrored_projection() {
     let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
-    let world = with_projection(mirror * room(32).file.view.projection);
+    let world = with_projection(mirror * room(16).file.view.projection);
     let pictures = both(&world, 96).map(|picture| mirrored(&picture));
-    assert_alike(&pictures, &both(&room(32), 96), "a mirrored projection");
+    assert_alike(&pictures, &both(&room(16), 96), "a mirrored projection");
 }
 
 /// What is no perspective is rasterized, and the next frame is traced again.
 #[test]
 fn projections_that_are_none() {
-    let world = room(32);
+    let world = room(16);
     let [zero, flat, lost] = [
         Mat4::ZERO,
         Mat4::from_scale(Vec3::new(1.0, 0.0, 1.0)) * world.file.view.projection.as_mat4(),

@@ -110,7 +110,7 @@ struct ViewRecord { // 392 bytes
     uint candidates;
     uint traits;
     float most_radiance;
-    uint padding;
+    float highlight;
     uint samples;
     uint accumulated;
     uint seed;

@@ -272,8 +272,9 @@ fn is_flat(model: &Mat4) -> bool {
     const LEAST_VOLUME: f64 = 1e-6;
     let linear = DMat3::from_mat4(model.as_dmat4());
     let sides: f64 = [linear.x_axis, linear.y_axis, linear.z_axis].iter().map(|side| side.length()).product();
-    // Also where these are no numbers.
-    !(linear.determinant().abs() > LEAST_VOLUME * sides)
+    // False where these are no numbers.
+    let is_solid = linear.determinant().abs() > LEAST_VOLUME * sides;
+    !is_solid
 }
 
 /// What a mesh is made of: its draws' triangles in order.

@@ -238,8 +238,9 @@ impl Tracer {
             exposure,
             has_movers: has(SurfaceKind::BakedMover),
         };
-        // Other numbers in each frame, but for those that go on with the same sequence.
-        let seed = common.record.seed ^ self.history[view].begun().wrapping_mul(0x9e37_79b9);
+        // What is kept from frame to frame needs other numbers in each, but for those that go on with the same sequence.
+        let begun = if self.options.keeps_lights { self.history[view].begun() } else { 0 };
+        let seed = common.record.seed ^ begun.wrapping_mul(0x9e37_79b9);
         let mut record = ViewRecord { accumulated, seed, ..common.record };
         if let Some(buffers) = &self.buffers {
             name_buffers(&mut record, buffers, self.kept.parity(), view, filter_steps);

@@ -3,7 +3,7 @@
 //! A constant is named after its file: `pass/raster/raster.vert` is [`RASTER_VERT`], `pass/raster/clip.vert`
 //! would be `RASTER_CLIP_VERT`.
 
-#[cfg(feature = "reload")]
+#[cfg(all(feature = "reload", not(feature = "shaderc")))]
 #[path = "../build/options.rs"]
 mod options;
 #[cfg(feature = "reload")]

@@ -27,15 +27,12 @@ impl Renderer {
     /// All that is recorded from now on uses the new pipelines; what is in flight keeps the old ones.
     fn make_pipelines(&mut self) -> Result<(), GpuError> {
         let flip = Flip::new(&self.gpu)?;
-        let traced = match &self.tracer {
-            Some(_) => Some(Arc::new(TracePipelines::new(&self.gpu, &self.table)?)),
-            None => None,
-        };
         self.raster.pipelines.reload()?;
         self.flip = flip;
         let tracers = self.seats.values_mut().filter_map(|seat| seat.tracer.as_mut());
         for tracer in tracers.chain(self.tracer.as_mut()) {
-            tracer.pipelines = traced.clone().unwrap_or_else(|| tracer.pipelines.clone());
+            let backend = tracer.options.backend;
+            tracer.pipelines = Arc::new(TracePipelines::new(&self.gpu, &self.table, backend)?);
             tracer.forget();
         }
         Ok(())

@@ -15,9 +15,9 @@ use super::pipelines::{pixel_groups, run};
 pub(crate) struct ProgramDesc<'a> {
     pub(crate) name: &'a str,
     /// `PASS.comp`.
-    pub(crate) compute: &'a [u32],
+    pub(crate) compute: &'static [u32],
     /// `PASS.rgen`.
-    pub(crate) generation: &'a [u32],
+    pub(crate) generation: &'static [u32],
 }
 
 /// A pipeline whose invocations are the picture's pixels.
@@ -39,7 +39,7 @@ impl Program {
             Backend::Software => gpu
                 .create_compute_pipeline(&ComputeDesc {
                     name: desc.name,
-                    spirv: desc.compute,
+                    spirv: shaders::current(desc.compute),
                     entry: c"main",
                     specialization: &[],
                     set_layouts,
@@ -49,8 +49,8 @@ impl Program {
             Backend::Hardware => gpu
                 .create_ray_pipeline(&RayPipelineDesc {
                     name: desc.name,
-                    ray_generation: desc.generation,
-                    miss: shaders::TRACE_RMISS,
+                    ray_generation: shaders::current(desc.generation),
+                    miss: shaders::current(shaders::TRACE_RMISS),
                     hits: &hit_groups(),
                     specialization: &[],
                     set_layouts,
@@ -77,9 +77,11 @@ impl Program {
 
 /// By the kinds of meshes (`driver_input::Kind`): triangles, spheres.
 fn hit_groups() -> [HitGroup<'static>; 2] {
-    let closest_hit = Some(shaders::TRACE_RCHIT);
+    let [closest_hit, any_hit, intersection] =
+        [shaders::TRACE_RCHIT, shaders::TRACE_RAHIT, shaders::TRACE_RINT]
+            .map(|built| Some(shaders::current(built)));
     [
-        HitGroup { closest_hit, any_hit: Some(shaders::TRACE_RAHIT), intersection: None },
-        HitGroup { closest_hit, any_hit: None, intersection: Some(shaders::TRACE_RINT) },
+        HitGroup { closest_hit, any_hit, intersection: None },
+        HitGroup { closest_hit, any_hit: None, intersection },
     ]
 }

@@ -49,6 +49,10 @@ struct Channels {
     vec3 open;
 };
 
+Channels no_channels() {
+    return Channels(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+}
+
 struct Path {
     SurfacePoint at;
     vec3 to_viewer;

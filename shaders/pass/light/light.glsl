@@ -28,10 +28,6 @@ struct Sums {
     Shade shade;
 };
 
-Channels no_channels() {
-    return Channels(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-}
-
 // A sample's light, limited so that rare paths leave no bright dots; counted where it was.
 vec3 limited(ViewRecord view, vec3 light) {
     FiniteRadiance finite = finite_radiance(light);

@@ -22,10 +22,6 @@ struct Sample {
     bool is_on_path;
 };
 
-Channels no_channels() {
-    return Channels(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-}
-
 RayPlan camera_plan(ViewRecord view, uvec2 pixel, PathRandom random) {
     vec2 at = vec2(pixel) + path_numbers(view, random, DIMENSION_PIXEL).xy - 0.5;
     vec3 direction = normalize(view.pixel_origin + view.pixel_right * at.x + view.pixel_down * at.y);

@@ -11,6 +11,7 @@ use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
 use super::change::History;
 use super::kept::KeptLights;
+use super::lists::Lists;
 use super::options::{Mode, PathtraceOptions};
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
@@ -50,6 +51,9 @@ pub(crate) struct Tracer {
     pub(crate) world: WorldBuilder,
     /// How the last frame left the meshes.
     pub(crate) world_state: ResourceState,
+    pub(crate) lists: Lists,
+    /// How the last frame left those.
+    pub(crate) lists_state: ResourceState,
     pub(crate) pipelines: Arc<TracePipelines>,
     /// Of the window's size; none before the first traced frame.
     pub(crate) buffers: Option<ViewBuffers>,
@@ -138,6 +142,8 @@ impl Tracer {
             recovery,
             world,
             world_state: ResourceState::SETTLED,
+            lists: Lists::new(gpu),
+            lists_state: ResourceState::SETTLED,
             pipelines,
             buffers: None,
             history: Vec::new(),
@@ -226,6 +232,7 @@ impl Tracer {
             *state = graph.final_state(resource).unwrap_or(*state);
         };
         keep(&mut self.world_state, resources.world);
+        keep(&mut self.lists_state, resources.lists);
         if let Some(buffers) = &mut self.buffers {
             keep(&mut buffers.visibility.state, resources.visibility);
             keep(&mut buffers.albedo.state, resources.albedo);
@@ -257,6 +264,7 @@ impl Tracer {
     /// After a frame that was not recorded: what its passes would have left is not there.
     pub(crate) fn forget(&mut self) {
         self.kept.forget();
+        self.lists.forget();
         self.history.iter_mut().for_each(History::forget);
     }
 }

@@ -39,11 +39,11 @@ pub(crate) struct Traced<'a> {
     pub(crate) block: Option<u32>,
 }
 
-/// The top level and what its hits are numbered by, on the device.
-#[derive(Debug, Clone, Copy, Default)]
+/// The top level on the device, and what its hits are numbered by.
+#[derive(Debug, Clone, Default)]
 pub(crate) struct World {
     pub(crate) top_level: u64,
-    pub(crate) members: u64,
+    pub(crate) members: Vec<MeshMember>,
     pub(crate) instances: u32,
     /// The longest side of its box.
     pub(crate) extent: f32,
@@ -145,12 +145,7 @@ impl WorldBuilder {
             members.push(MeshMember { draw: MEMBER_OF_LIGHTS | first, first_triangle: 0 });
         }
         let top = self.structures.top_level(&placed, arena)?;
-        Ok(World {
-            top_level: top.address,
-            members: arena.push_table(&members)?.address,
-            instances: top.instances,
-            extent: top.extent,
-        })
+        Ok(World { top_level: top.address, members, instances: top.instances, extent: top.extent })
     }
 
     fn build_mesh(

@@ -145,6 +145,26 @@ fn the_backend_can_change() {
     assert_valid();
 }
 
+/// On a device with memory of its own, which lavapipe is not, lists are copied: in frames that change, and in some that do not.
+#[test]
+fn copied_lists_are_what_was_written() {
+    for backend in [Backend::Software, Backend::Hardware] {
+        let picture = |copies: bool| {
+            let mut stage = Stage::new(Mode::Pathtrace, |options| options.backend = backend);
+            if copies {
+                let renderer = &mut *stage.renderer.lock().unwrap();
+                renderer.tracer.as_mut().unwrap().lists.always_copy(&renderer.gpu);
+            }
+            for aside in [0.3, 0.0, 0.0, 0.0, 0.1] {
+                floor_and_slab(&mut stage, aside, |gl| slab(gl, 0.8));
+            }
+            stage.picture()
+        };
+        assert!(picture(true) == picture(false), "{backend}");
+    }
+    assert_valid();
+}
+
 /// A wall before which two spheres shine, seen by the camera's own rays.
 fn spheres(backend: Backend) -> Radiance {
     let mut builder = FrameBuilder::new(SIZE.0, SIZE.1);

@@ -171,7 +171,7 @@ impl HardwareStructures {
 
 impl Builder for HardwareStructures {
     /// What can be made smaller will be.
-    fn begin_frame(&mut self) -> Result<(), GpuError> {
+    fn begin_frame(&mut self, _: &mut UploadArena) -> Result<(), GpuError> {
         self.frame += 1;
         self.builds.clear();
         self.top_build = None;

@@ -1,6 +1,9 @@
 //! Structures of the software backend: bottom levels on the device, found by their content, and a top level a frame.
 //! Where a mesh that does not last is gone and another has the same triangles in the same order, only moved, its structure
 //! moves with them.
+//!
+//! What lasts is built by another thread where frames do not wait for it: until it comes, rays pass through it. So that little
+//! is missing for long, a few small meshes a frame are built at once, and small ones come before large ones.
 
 use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
 use afterglow_bvh::{
@@ -8,8 +11,10 @@ use afterglow_bvh::{
 };
 use afterglow_gpu::{Commands, Gpu, GpuError};
 use afterglow_records::MEMBER_SHIFT;
-use hashbrown::HashMap;
+use hashbrown::hash_map::Entry;
+use hashbrown::{HashMap, HashSet};
 
+use super::background::{Background, Finished, Order};
 use super::refit::Movable;
 use super::slabs::Part;
 use super::staging::Staging;
@@ -18,8 +23,10 @@ use crate::uploads::UploadArena;
 
 /// Bytes of a slab.
 const SLAB_BYTES: u64 = 16 << 20;
-/// Meshes of more triangles are built fast, whatever they are.
+/// Meshes of more triangles are built fast where frames wait for them.
 const MOST_IMPROVED: usize = 20_000;
+/// Triangles that a frame builds at once where it does not wait for others: about a millisecond's.
+const MOST_AT_ONCE: usize = 2_000;
 
 /// A bottom level on the device.
 struct Mesh {
@@ -33,17 +40,74 @@ struct Mesh {
 pub(crate) struct Meshes {
     staging: Staging,
     meshes: HashMap<u64, Mesh>,
+    /// None if frames wait for all that they need.
+    background: Option<Background>,
+    /// Meshes that are still being built.
+    waiting: HashSet<u64>,
+    /// Triangles of lasting meshes that this frame has built at once.
+    at_once: usize,
 }
 
 impl Meshes {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self { staging: Staging::new(gpu, "meshes", SLAB_BYTES), meshes: HashMap::new() }
+    /// `waits`: frames wait for all that they need.
+    pub(crate) fn new(gpu: &Gpu, waits: bool) -> Self {
+        let build = |order: &Order, quality| of_triangles(&order.corners, &order.members, quality);
+        Self {
+            staging: Staging::new(gpu, "meshes", SLAB_BYTES),
+            meshes: HashMap::new(),
+            background: (!waits).then(|| Background::new(build)),
+            waiting: HashSet::new(),
+            at_once: 0,
+        }
     }
 
     fn insert(&mut self, content: u64, blas: &Blas, arena: &mut UploadArena) -> Result<&mut Mesh, GpuError> {
         let part = self.staging.bring(bytemuck::cast_slice(&blas.words), arena)?;
         let mesh = Mesh { part, bounds: blas.bounds, movable: None };
-        Ok(self.meshes.entry(content).insert(mesh).into_mut())
+        let entry = self.meshes.entry(content);
+        if let Entry::Occupied(former) = &entry {
+            self.staging.free(former.get().part.clone());
+        }
+        Ok(entry.insert(mesh).into_mut())
+    }
+
+    /// Builds a mesh that lasts.
+    fn build_lasting(
+        &mut self,
+        content: u64,
+        corners: &[[f32; 3]],
+        members: &[Member],
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        let triangles = corners.len() / 3;
+        let is_small = triangles <= MOST_IMPROVED;
+        let mut quality = if is_small { Quality::Good } else { Quality::Fast };
+        if let Some(background) = &mut self.background {
+            let is_built = self.at_once + triangles <= MOST_AT_ONCE;
+            let (corners, members) = (corners.to_vec(), members.to_vec());
+            if background.ask(Order { content, corners, members, is_built }).is_ok() {
+                quality = Quality::Fast;
+                if !is_built {
+                    self.waiting.insert(content);
+                    return Ok(());
+                }
+                self.at_once += triangles;
+            }
+        }
+        let blas = of_triangles(corners, members, quality);
+        blas.map_or(Ok(()), |blas| self.insert(content, &blas, arena).map(|_| ()))
+    }
+
+    /// Takes what was built meanwhile.
+    fn take_finished(&mut self, arena: &mut UploadArena) -> Result<(), GpuError> {
+        let finished = self.background.as_mut().map(Background::take).unwrap_or_default();
+        for Finished { content, blas } in finished {
+            let is_needed = self.waiting.remove(&content) || self.meshes.contains_key(&content);
+            if let Some(blas) = blas.filter(|_| is_needed) {
+                self.insert(content, &blas, arena)?;
+            }
+        }
+        Ok(())
     }
 
     /// Takes the structure of a mesh that becomes another one.
@@ -55,9 +119,14 @@ impl Meshes {
 }
 
 impl Builder for Meshes {
-    fn begin_frame(&mut self) -> Result<(), GpuError> {
+    fn begin_frame(&mut self, arena: &mut UploadArena) -> Result<(), GpuError> {
         self.staging.begin_frame();
-        Ok(())
+        self.at_once = 0;
+        self.take_finished(arena)
+    }
+
+    fn has_room(&self, triangles: usize) -> bool {
+        self.background.as_ref().is_none_or(|background| background.has_room(triangles))
     }
 
     fn build(
@@ -73,10 +142,7 @@ impl Builder for Meshes {
                 blas.map_or(Ok(()), |blas| self.insert(content, &blas, arena).map(|_| ()))
             }
             Shapes::Triangles { corners, members } if input.is_lasting => {
-                let is_small = corners.len() / 3 <= MOST_IMPROVED;
-                let quality = if is_small { Quality::Good } else { Quality::Fast };
-                let blas = of_triangles(corners, members, quality);
-                blas.map_or(Ok(()), |blas| self.insert(content, &blas, arena).map(|_| ()))
+                self.build_lasting(content, corners, members, arena)
             }
             Shapes::Triangles { corners, members } => {
                 let former = changing.and_then(|changing| self.take(changing.former?));
@@ -94,8 +160,16 @@ impl Builder for Meshes {
         self.meshes.contains_key(&content)
     }
 
+    fn is_waiting(&self, content: u64) -> bool {
+        self.waiting.contains(&content)
+    }
+
     fn free(&mut self, content: u64) {
         self.take(content);
+        self.waiting.remove(&content);
+        if let Some(background) = &mut self.background {
+            background.cancel(content);
+        }
     }
 
     fn top_level(&mut self, placed: &[Placed], arena: &mut UploadArena) -> Result<TopLevel, GpuError> {

@@ -7,6 +7,7 @@
 mod anchors;
 pub(crate) mod arrange;
 mod backend;
+mod background;
 pub(crate) mod buffers;
 mod change;
 mod compaction;

@@ -63,6 +63,8 @@ pub struct TraceCounts {
     pub instances: usize,
     /// Triangles that were built into structures for this frame.
     pub built_triangles: usize,
+    /// Meshes that rays miss because they are still being built.
+    pub waiting: usize,
     /// Lights.
     pub lights: usize,
     /// Samples a pixel in the first view, earlier frames' included.
@@ -84,7 +86,7 @@ pub(crate) fn prepare(
     camera: &Camera,
     size: [u32; 2],
 ) -> Result<PreparedTrace, GpuError> {
-    tracer.world.begin_frame()?;
+    tracer.world.begin_frame(input.arena)?;
     tracer.lists.begin_frame();
     // In f32, so that differences to what is near it are exact.
     let origin = camera.view.inverse().w_axis.truncate().as_vec3().as_dvec3();
@@ -136,6 +138,7 @@ pub(crate) fn prepare(
             unseen: surfaces.traced.len() - surfaces.seen,
             instances: world.instances as usize,
             built_triangles: tracer.world.structures().built(),
+            waiting: world.waiting,
             lights: common.record.light_count as usize,
             samples: tracer.history.first().map_or(0, |history| history.samples() as usize),
         },
@@ -192,6 +195,7 @@ impl Tracer {
             let record = &surfaces.records[traced.surface as usize];
             hasher.add(input.frame, traced.draw, record, traced.triangles.hash);
         }
+        hasher.add_waiting(world.waiting);
         let is_mover = |traced: &Traced<'_>| u32::from(traced.mask) & MASK_MOVING != 0;
         let rays = PixelRays::new(camera, size);
         Common {

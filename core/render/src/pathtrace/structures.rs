@@ -78,7 +78,12 @@ pub(crate) struct TopLevel {
 /// What a backend does. It has meshes by their contents; which of them are there, and for how long, is not its business.
 pub(super) trait Builder: Send {
     /// A new frame begins.
-    fn begin_frame(&mut self) -> Result<(), GpuError>;
+    fn begin_frame(&mut self, arena: &mut UploadArena) -> Result<(), GpuError>;
+
+    /// Whether a mesh that lasts, of so many triangles, may be built now; if not, it is asked for in the next frame again.
+    fn has_room(&self, _triangles: usize) -> bool {
+        true
+    }
 
     /// Builds a mesh, or moves the one of [`Changing::former`].
     fn build(
@@ -91,6 +96,11 @@ pub(super) trait Builder: Send {
 
     /// Whether rays can meet anything of a mesh.
     fn is_met(&self, content: u64) -> bool;
+
+    /// Whether a mesh is still being built.
+    fn is_waiting(&self, _content: u64) -> bool {
+        false
+    }
 
     /// Gives a mesh up; frames in flight may still use it.
     fn free(&mut self, content: u64);
@@ -131,11 +141,13 @@ pub(crate) struct Structures {
 }
 
 impl Structures {
+    /// `waits`: frames wait for all that they need.
+    ///
     /// # Errors
     /// If the device lacks what the backend needs.
-    pub(crate) fn new(gpu: &Gpu, backend: Backend) -> Result<Self, GpuError> {
+    pub(crate) fn new(gpu: &Gpu, backend: Backend, waits: bool) -> Result<Self, GpuError> {
         Ok(Self::with(match backend {
-            Backend::Software => Box::new(Meshes::new(gpu)),
+            Backend::Software => Box::new(Meshes::new(gpu, waits)),
             Backend::Hardware => Box::new(HardwareStructures::new(gpu)?),
         }))
     }
@@ -145,7 +157,7 @@ impl Structures {
     }
 
     /// A new frame begins: what was not used for long goes.
-    pub(crate) fn begin_frame(&mut self) -> Result<(), GpuError> {
+    pub(crate) fn begin_frame(&mut self, arena: &mut UploadArena) -> Result<(), GpuError> {
         self.frame += 1;
         self.built = 0;
         self.formers.begin_frame();
@@ -157,12 +169,22 @@ impl Structures {
             }
             is_kept
         });
-        self.builder.begin_frame()
+        self.builder.begin_frame(arena)
     }
 
     /// Whether a mesh is there, so that it need not be built.
     pub(crate) fn has(&self, content: u64) -> bool {
         self.entries.contains_key(&content)
+    }
+
+    /// Whether a mesh that lasts, of so many triangles, may be built now.
+    pub(crate) fn has_room(&self, triangles: usize) -> bool {
+        self.builder.has_room(triangles)
+    }
+
+    /// Whether rays miss a mesh that they could meet, because it is still being built or was not begun.
+    pub(crate) fn is_waiting(&self, content: u64) -> bool {
+        !self.has(content) || self.builder.is_waiting(content)
     }
 
     /// Builds a mesh that is not there, or moves one that the last frame used and this one does not.
@@ -252,7 +274,7 @@ mod tests {
     struct Noting(Arc<Mutex<Vec<Asked>>>);
 
     impl Builder for Noting {
-        fn begin_frame(&mut self) -> Result<(), GpuError> {
+        fn begin_frame(&mut self, _: &mut UploadArena) -> Result<(), GpuError> {
             Ok(())
         }
 
@@ -298,7 +320,7 @@ mod tests {
             members: &[Member { triangles: 1, is_alpha_tested: false }],
         };
         let mut frame = |used: &&[u64]| {
-            structures.begin_frame().unwrap();
+            structures.begin_frame(&mut arena).unwrap();
             for content in *used {
                 structures.take(*content);
             }
@@ -332,9 +354,9 @@ mod tests {
 
     #[test]
     fn nothing_to_meet_is_not_built() {
-        let mut structures = Structures::new(&gpu(), Backend::Software).unwrap();
+        let mut structures = Structures::new(&gpu(), Backend::Software, true).unwrap();
         let mut arena = UploadArena::new(&gpu());
-        structures.begin_frame().unwrap();
+        structures.begin_frame(&mut arena).unwrap();
         let members = [Member { triangles: 1, is_alpha_tested: false }];
         let shapes = Shapes::Triangles { corners: &[[f32::NAN; 3]; 3], members: &members };
         for (content, is_lasting) in [(1, false), (2, true)] {

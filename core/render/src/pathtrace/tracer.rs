@@ -107,10 +107,13 @@ impl Tracer {
         mode: Mode,
         options: &PathtraceOptions,
     ) -> Result<(), GpuError> {
-        if options.backend != self.options.backend {
-            let world = WorldBuilder::new(gpu, options.backend)?;
-            self.pipelines = Arc::new(TracePipelines::new(gpu, table, options.backend)?);
-            self.world = world;
+        let (backend, waits) = (options.backend, options.waits_for_builds);
+        if backend != self.options.backend {
+            let pipelines = Arc::new(TracePipelines::new(gpu, table, backend)?);
+            self.world = WorldBuilder::new(gpu, backend, waits)?;
+            self.pipelines = pipelines;
+        } else if waits != self.options.waits_for_builds {
+            self.world = WorldBuilder::new(gpu, backend, waits)?;
         }
         self.mode = mode;
         self.options = options.clone();
@@ -129,7 +132,7 @@ impl Tracer {
         options: PathtraceOptions,
         pipelines: Arc<TracePipelines>,
     ) -> Result<Self, GpuError> {
-        let world = WorldBuilder::new(gpu, options.backend)?;
+        let world = WorldBuilder::new(gpu, options.backend, options.waits_for_builds)?;
         let mut recovery = Recovery::with_profile(options.profile.clone())
             .with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);

@@ -130,6 +130,36 @@ fn what_lasts_stays_as_it_is_when_it_is_made_smaller() {
     assert_alike(&[software, hardware]);
 }
 
+/// A level that is built beside the frames: first rays miss it, then it is as it would have been at once.
+#[test]
+fn what_is_built_beside_the_frames_comes_to_be_met() {
+    let stage = |waits: bool| {
+        let mut stage = Stage::new(Mode::Pathtrace, |options| options.waits_for_builds = waits);
+        stage.gl.new_list(1, GL_COMPILE);
+        stage.gl.begin(GL_QUADS);
+        stage.gl.normal([0.0, 1.0, 0.0]);
+        for row in 0..1500 {
+            let (near, far) = (0.8 - row as f32 / 1000.0, 0.799 - row as f32 / 1000.0);
+            for [x, z] in [[-0.8, near], [0.8, near], [0.8, far], [-0.8, far]] {
+                stage.gl.vertex([x, 0.0, z, 1.0]);
+            }
+        }
+        stage.gl.end();
+        stage.gl.end_list();
+        let mut waiting = Vec::new();
+        // Some more, so that exposure has come to rest.
+        while waiting.iter().filter(|waiting| **waiting == 0).count() < 40 {
+            floor_and_slab(&mut stage, 0.0, |gl| gl.call_list(1));
+            let traced = stage.renderer.lock().unwrap().frame_report().unwrap().traced;
+            waiting.extend(traced.map(|traced| traced.waiting));
+        }
+        (stage, waiting.iter().any(|waiting| *waiting > 0))
+    };
+    let ((at_once, has_waited), (later, has_come)) = (stage(true), stage(false));
+    assert!(!has_waited && has_come);
+    assert_alike(&[at_once, later]);
+}
+
 #[test]
 fn the_backend_can_change() {
     let mut stage = Stage::new(Mode::Pathtrace, |_| {});

@@ -1,7 +1,8 @@
 //! What rays are traced through. A backend is measured by implementing [`Structure`].
 
+use afterglow_bvh::layout::WHOLE_UNITS_CONSTANT;
 use afterglow_bvh::{Blas, IDENTITY, Instance, build_tlas};
-use afterglow_gpu::{Buffer, Commands, ComputeDesc, ComputePipeline, Gpu, GpuError, vk};
+use afterglow_gpu::{Buffer, Commands, ComputeDesc, ComputePipeline, DeviceKind, Gpu, GpuError, vk};
 use afterglow_shaders::{BENCH_BINARY_COMP, BENCH_WIDE_COMP};
 use bytemuck::{NoUninit, Pod, Zeroable};
 
@@ -114,7 +115,9 @@ impl Programs {
     fn new(gpu: &Gpu, name: &str, spirv: &[u32]) -> Result<Self, GpuError> {
         let program = |any_hit: u32| {
             let desc = ComputeDesc::new(name, spirv).push_constants(size_of::<Constants>() as u32);
-            gpu.create_compute_pipeline(&desc.specialization(&[(0, any_hit)]))
+            let whole_units = u32::from(gpu.info().kind != DeviceKind::Cpu);
+            let constants = [(0, any_hit), (WHOLE_UNITS_CONSTANT, whole_units)];
+            gpu.create_compute_pipeline(&desc.specialization(&constants))
         };
         Ok(Self { closest: program(0)?, any: program(1)? })
     }

@@ -1,7 +1,8 @@
 //! A pass that shoots rays, as a compute pipeline or as a ray-tracing pipeline.
 
+use afterglow_bvh::layout::WHOLE_UNITS_CONSTANT;
 use afterglow_gpu::{
-    BindlessTable, Commands, ComputeDesc, ComputePipeline, Gpu, GpuError, HitGroup, RayPipeline,
+    BindlessTable, Commands, ComputeDesc, ComputePipeline, DeviceKind, Gpu, GpuError, HitGroup, RayPipeline,
     RayPipelineDesc,
 };
 use afterglow_records::ViewPush;
@@ -35,13 +36,14 @@ impl Program {
     ) -> Result<Self, GpuError> {
         let set_layouts = &[table.layout()];
         let push_constant_bytes = size_of::<ViewPush>() as u32;
+        let whole_units = u32::from(gpu.info().kind != DeviceKind::Cpu);
         match backend {
             Backend::Software => gpu
                 .create_compute_pipeline(&ComputeDesc {
                     name: desc.name,
                     spirv: shaders::current(desc.compute),
                     entry: c"main",
-                    specialization: &[],
+                    specialization: &[(WHOLE_UNITS_CONSTANT, whole_units)],
                     set_layouts,
                     push_constant_bytes,
                 })

@@ -33,7 +33,7 @@ SurfacePoint seen_point(SurfaceTexel surface) {
 // What a light's point brings to a surface that is seen along `to_viewer`.
 float brings_to(ViewRecord view, SurfacePoint at, vec3 to_viewer, ReservoirTexel kept) {
     LightSample to = light_sample(light_source(view, kept.light), at.start, unpackUnorm2x16(kept.point));
-    return brings(path_from(at, to_viewer, 0u), to);
+    return brings(path_from(at, to_viewer, 0u, camera_cone(0.0)), to);
 }
 
 // A choice among candidates that are added one by one.

@@ -110,7 +110,8 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
     bool is_baked = kind == SURFACE_BAKED;
     PathRandom random = PathRandom(Random(random_pixel, view.accumulated), view.seed);
     vec3 to_viewer = unit_vector(-seen.start);
-    Path path = path_from(seen, to_viewer, mask);
+    RayCone cone = travelled(camera_cone(view.pixel_spread), length(seen.start));
+    Path path = path_from(seen, to_viewer, mask, cone);
     Channels light = no_channels();
     RayPlan asked = RayPlan(seen.normal, 0.0, true, false, vec3(0.0), vec3(0.0), 0.0, false);
     uint done = 0u;
@@ -136,7 +137,7 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
         if (path.is_over) {
             add_sample(view, light, sums.light);
             light = no_channels();
-            path = path_from(seen, to_viewer, mask);
+            path = path_from(seen, to_viewer, mask, cone);
             ++random.random.sample_index;
             ++done;
         }

@@ -30,9 +30,10 @@ RayPlan camera_plan(ViewRecord view, uvec2 pixel, PathRandom random) {
 
 void take_camera_ray(ViewRecord view, RayPlan plan, bool met, Hit hit, inout Sample own) {
     if (met) {
-        SurfacePoint point = surface_point(view, hit, plan.direction);
+        RayCone cone = travelled(camera_cone(view.pixel_spread), hit.t);
+        SurfacePoint point = surface_point(view, hit, plan.direction, cone);
         own.seen = point.emission;
-        own.path = path_from(point, -plan.direction, MASK_STATIC | MASK_MOVING);
+        own.path = path_from(point, -plan.direction, MASK_STATIC | MASK_MOVING, cone);
         own.is_on_path = true;
         return;
     }
@@ -44,9 +45,9 @@ void take_camera_ray(ViewRecord view, RayPlan plan, bool met, Hit hit, inout Sam
     own.path.is_over = true;
 }
 
-Sample new_sample() {
+Sample new_sample(ViewRecord view) {
     SurfacePoint eye = shining_point(vec3(0.0), NO_LIGHT);
-    Path path = path_from(eye, vec3(0.0), MASK_STATIC | MASK_MOVING);
+    Path path = path_from(eye, vec3(0.0), MASK_STATIC | MASK_MOVING, camera_cone(view.pixel_spread));
     path.is_over = false;
     return Sample(path, no_channels(), vec3(0.0), false);
 }
@@ -78,7 +79,7 @@ void main() {
         texel = RadianceTexels(view.radiance).entries[index];
     }
     PathRandom random = PathRandom(Random(index, view.accumulated), view.seed);
-    Sample own = new_sample();
+    Sample own = new_sample(view);
     uint end = view.accumulated + view.samples;
     uint rays = 0u;
     [[dont_unroll]] for (uint i = view.samples * (1u + most_rays(view)); i != 0u && random.random.sample_index < end; --i) {
@@ -104,7 +105,7 @@ void main() {
             vec3 radiance = own.seen + light.direct + light.indirect + light.specular + light.open * view.sky;
             ++random.random.sample_index;
             add_radiance(view, radiance, random.random.sample_index, texel);
-            own = new_sample();
+            own = new_sample(view);
         }
     }
     atomicAdd(Counters(view.counters).entries[0].rays, rays);

@@ -8,6 +8,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "trace.glsl"
+#include "pathtrace/eye.glsl"
 #include "pathtrace/finite.glsl"
 #include "pathtrace/path.glsl"
 
@@ -22,15 +23,18 @@ struct Sample {
     bool is_on_path;
 };
 
-RayPlan camera_plan(ViewRecord view, uvec2 pixel, PathRandom random) {
+// The camera's ray; it starts where `own` is.
+RayPlan camera_plan(ViewRecord view, uvec2 pixel, PathRandom random, inout Sample own) {
     vec2 at = vec2(pixel) + path_numbers(view, random, DIMENSION_PIXEL).xy - 0.5;
-    vec3 direction = normalize(view.pixel_origin + view.pixel_right * at.x + view.pixel_down * at.y);
+    vec3 place = pixel_place(view, at);
+    own.path.at.start = looks_parallel(view) ? place : vec3(0.0);
+    vec3 direction = looks_parallel(view) ? view.forward : normalize(place);
     return RayPlan(direction, LONGEST_RAY, false, true, vec3(0.0), vec3(0.0), 0.0, false);
 }
 
 void take_camera_ray(ViewRecord view, RayPlan plan, bool met, Hit hit, inout Sample own) {
     if (met) {
-        RayCone cone = travelled(camera_cone(view.pixel_spread), hit.t);
+        RayCone cone = seen_cone(view, hit.t);
         SurfacePoint point = surface_point(view, hit, plan.direction, cone);
         own.seen = point.emission;
         own.path = path_from(point, -plan.direction, MASK_STATIC | MASK_MOVING, cone);
@@ -87,7 +91,7 @@ void main() {
         if (own.is_on_path) {
             plan = plan_ray(view, own.path, random);
         } else {
-            plan = camera_plan(view, pixel, random);
+            plan = camera_plan(view, pixel, random, own);
         }
         Hit hit;
         bool met = false;

@@ -1,7 +1,7 @@
 //! From a judged frame to what its passes read: surfaces, the world, a record a view.
 
 use afterglow_gpu::GpuError;
-use afterglow_records::{MASK_MOVING, Paint, SurfaceKind, ViewRecord};
+use afterglow_records::{MASK_MOVING, Paint, SurfaceKind, TRACE_PARALLEL, ViewRecord};
 use afterglow_scene::Camera;
 use bytemuck::Zeroable;
 use glam::Vec3;
@@ -182,7 +182,7 @@ impl Tracer {
                 most_surfaces: estimator.surfaces,
                 asked: estimator.asked,
                 candidates: estimator.candidates,
-                traits: estimator.traits,
+                traits: estimator.traits | if rays.is_parallel { TRACE_PARALLEL } else { 0 },
                 most_radiance: estimator.most_radiance,
                 highlight: highlight(&input.frame.lights, &scene.lights),
                 samples: options.spp.max(1),

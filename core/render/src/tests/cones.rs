@@ -56,7 +56,7 @@ impl Hall {
         gl.frustum(-0.4, 0.4, -0.3, 0.3, 1.0, 100.0);
         gl.matrix_mode(GL_MODELVIEW);
         gl.load_identity();
-        gl.rotate((self.turned * 0.8 / SIZE.0 as f32).to_degrees().into(), 0.0, 1.0, 0.0);
+        gl.rotate((self.turned * 0.8 / SIZE.0 as f32).to_degrees(), 0.0, 1.0, 0.0);
         gl.translate(0.0, -1.0, 0.0);
         gl.enable(GL_DEPTH_TEST);
         gl.color([1.0; 4]);

@@ -20,8 +20,8 @@ pub struct Batch {
     pub answers: u64,
     /// How many.
     pub count: u32,
-    /// 0.
-    pub padding: u32,
+    /// Of the picture that they are pixels of, in pixels.
+    pub width: u32,
 }
 
 /// Something built that rays go through.
@@ -93,22 +93,20 @@ impl Structure for Plain {
     }
 }
 
-/// The driver's structures. None where they are not there.
-pub fn hardware(_gpu: &Gpu, _subject: &Subject) -> Result<Option<Box<dyn Structure>>, Failure> {
-    Ok(None)
-}
-
 /// A shader for the closest hit, and for any.
 struct Programs {
     closest: ComputePipeline,
     any: ComputePipeline,
 }
 
+/// Push constants of all kernels: what is gone through, and what for.
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
-struct Constants {
-    structure: u64,
-    batch: Batch,
+pub struct Constants {
+    /// Its address.
+    pub structure: u64,
+    /// The rays.
+    pub batch: Batch,
 }
 
 impl Programs {

@@ -1,7 +1,7 @@
 //! From a judged frame to what its passes read: surfaces, the world, a record a view.
 
 use afterglow_gpu::GpuError;
-use afterglow_records::{MASK_MOVING, Paint, SurfaceKind, ViewRecord};
+use afterglow_records::{MASK_MOVING, Paint, SurfaceKind, TRACE_PARALLEL, ViewRecord};
 use afterglow_scene::Camera;
 use bytemuck::Zeroable;
 use glam::Vec3;
@@ -46,6 +46,8 @@ pub(crate) struct PreparedTrace {
     pub(crate) backend: Backend,
     /// The world must be brought to the device.
     pub(crate) has_builds: bool,
+    /// Rays may meet spheres.
+    pub(crate) has_spheres: bool,
     pub(crate) counts: TraceCounts,
 }
 
@@ -103,6 +105,11 @@ pub(crate) fn prepare(
         surfaces.records[traced.surface as usize].reach = *reach;
     }
     let common = tracer.common(&mut input, tracing, camera, &surfaces, &world, size)?;
+    let program = match tracer.has_camera_rays {
+        true => &tracer.pipelines.reference,
+        false => &tracer.pipelines.light,
+    };
+    program.make_ready(input.gpu, input.table, world.has_spheres)?;
     let mut views = Vec::with_capacity(tracing.arrangement.views.len());
     let mut finds_exposure = true;
     let parity = tracer.kept.parity();
@@ -124,6 +131,7 @@ pub(crate) fn prepare(
         parity,
         backend: tracer.options.backend,
         has_builds: tracer.world.structures().has_work(),
+        has_spheres: world.has_spheres,
         counts: TraceCounts {
             traced_draws: surfaces.seen,
             unseen: surfaces.traced.len() - surfaces.seen,
@@ -174,7 +182,7 @@ impl Tracer {
                 most_surfaces: estimator.surfaces,
                 asked: estimator.asked,
                 candidates: estimator.candidates,
-                traits: estimator.traits,
+                traits: estimator.traits | if rays.is_parallel { TRACE_PARALLEL } else { 0 },
                 most_radiance: estimator.most_radiance,
                 highlight: highlight(&input.frame.lights, &scene.lights),
                 samples: options.spp.max(1),

@@ -45,6 +45,8 @@ pub(crate) struct World {
     pub(crate) top_level: u64,
     pub(crate) members: u64,
     pub(crate) instances: u32,
+    /// Whether rays may meet spheres.
+    pub(crate) has_spheres: bool,
     /// The longest side of its box.
     pub(crate) extent: f32,
 }
@@ -139,7 +141,9 @@ impl WorldBuilder {
                 members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
             }
         }
-        if let Some(lamps) = self.lamps(&lights.lamps, origin, members.len(), arena)? {
+        let lamps = self.lamps(&lights.lamps, origin, members.len(), arena)?;
+        let has_spheres = lamps.is_some();
+        if let Some(lamps) = lamps {
             placed.push(lamps);
             let first = lights.lamps.first_light as u32;
             members.push(MeshMember { draw: MEMBER_OF_LIGHTS | first, first_triangle: 0 });
@@ -149,6 +153,7 @@ impl WorldBuilder {
             top_level: top.address,
             members: arena.push_table(&members)?.address,
             instances: top.instances,
+            has_spheres,
             extent: top.extent,
         })
     }

@@ -15,95 +15,93 @@
 
 bool accept_hit(uint instance, uint primitive, vec2 barycentrics);
 
+// Puts children that wait on the stack; no function, because an array that is passed to one is copied. The builders keep to
+// the stack's size; whatever a structure says, nothing is written beside it.
+#define BVH_PUSH(reference) stack[height++ & (BVH_STACK_ENTRIES - 1u)] = reference
+#define BVH_POP stack[--height & (BVH_STACK_ENTRIES - 1u)]
+
+// Goes to a child that is nearer than the one met before it, which waits.
+#define BVH_MEET(met_child) \
+    if (met_child != BVH_MISSED) { \
+        if (reference != BVH_NOTHING) { \
+            BVH_PUSH(reference); \
+        } \
+        reference = bvh_child(children, met_child); \
+    }
+
+// Visits the node at `reference` and goes to the nearest of its children that the ray meets, the others wait, the farthest
+// below; where any hit will do, to any.
+#define BVH_VISIT(structure, ray) \
+    { \
+        uvec4 children; \
+        ivec4 met = bvh_enter(structure, reference, ray, t_min, hit.t, children); \
+        if (!any_hit) { \
+            met = bvh_sorted(met); \
+        } \
+        reference = BVH_NOTHING; \
+        BVH_MEET(met.w) \
+        BVH_MEET(met.z) \
+        BVH_MEET(met.y) \
+        BVH_MEET(met.x) \
+    }
+
 // The closest hit in (t_min, t_max], t_min not negative, or some hit where any_hit is set, among instances that share a
 // bit with `mask`. `direction` may have any length but 0. Back faces count. Of hits at the same t the
 // one with the lesser (instance, primitive) counts, so that the answer depends on no tree.
 bool bvh_trace(uint64_t tlas, vec3 origin, float t_min, vec3 direction, float t_max, uint mask, bool any_hit, out Hit hit) {
     t_min = max(t_min, 0.0);
-    uint64_t stack[BVH_STACK_ENTRIES];
+    uint stack[BVH_STACK_ENTRIES];
     uint height = 0u;
-    uint64_t structure = tlas;
-    BvhRay ray = bvh_ray(origin, direction);
-    BvhGroup nodes = BVH_ROOT;
-    BvhGroup leaves = BvhGroup(0u, 0u);
-    // The instance that the ray is in, and the stack's height where it entered.
-    bool inside = false;
-    uint floor_height = 0u;
-    uint instance = 0u;
-    uint instance_flags = 0u;
-
+    uint reference = BVH_ROOT;
+    BvhRay world_ray = bvh_ray(origin, direction);
     bool found = false;
     hit = Hit(t_max, vec2(0.0), 0u, 0u, false);
 
+    // A loop for each level: one for both would have to keep both rays at hand. A step visits a node, then meets a leaf
+    // record: so few rays wait for others, which have more of either.
     for (uint steps = 0u; steps < BVH_MAX_STEPS; ++steps) {
-        if (leaves.mask == 0u) {
-            if (!bvh_has_nodes(nodes)) {
-                if (height == 0u) {
-                    break;
-                }
-                if (inside && height <= floor_height) {
-                    inside = false;
-                    structure = tlas;
-                    ray = bvh_ray(origin, direction);
-                }
-                nodes = bvh_unpack(stack[--height]);
+        if (bvh_is_node(reference)) {
+            BVH_VISIT(tlas, world_ray)
+        }
+        if (bvh_is_leaf(reference)) {
+            uint place = reference & BVH_PLACE_MASK;
+            BvhInstance entered = bvh_instance(tlas, place);
+            BvhRay ray = world_ray;
+            if ((entered.flags & BVH_FLAG_IDENTITY) == 0u) {
+                ray = bvh_ray_in_object(tlas, place, origin, direction);
             }
-            if (bvh_has_nodes(nodes)) {
-                uint place = bvh_take_node(nodes, ray.order);
-                if (bvh_has_nodes(nodes) && height < BVH_STACK_ENTRIES) {
-                    stack[height++] = bvh_pack(nodes);
+            uint floor_height = height;
+            reference = (entered.mask & mask) != 0u ? BVH_ROOT : BVH_NOTHING;
+            for (; steps < BVH_MAX_STEPS && reference != BVH_NOTHING; ++steps) {
+                if (bvh_is_node(reference)) {
+                    BVH_VISIT(entered.blas, ray)
                 }
-                bvh_visit(structure, place, ray, t_min, hit.t, nodes, leaves);
-            } else {
-                leaves = nodes;
-                nodes = BvhGroup(0u, 0u);
+                if (bvh_is_leaf(reference)) {
+                    TriangleHit met;
+                    uint primitive, flags;
+                    bool is_met = bvh_meet_triangle(entered.blas, reference & BVH_PLACE_MASK, ray, t_min, met, primitive, flags);
+                    bool closer = is_met && met.t > t_min && (met.t < hit.t || met.t == hit.t && (!found
+                        || entered.id < hit.instance || entered.id == hit.instance && primitive < hit.primitive));
+                    bool tested = ((flags | entered.flags) & BVH_FLAG_ALPHA_TESTED) != 0u;
+                    reference = bvh_next_record(reference);
+                    if (closer && (!tested || accept_hit(entered.id, primitive, met.barycentrics))) {
+                        hit = Hit(met.t, met.barycentrics, primitive, entered.id, met.front);
+                        found = true;
+                        if (any_hit) {
+                            return true;
+                        }
+                    }
+                }
+                if (reference == BVH_NOTHING && height != floor_height) {
+                    reference = BVH_POP;
+                }
             }
         }
-
-        // One leaf record a step: rays that have none wait for one, and not for the most that any ray has. Where any
-        // hit will do, few rays come to leaves, and those end there.
-        for (bool more = leaves.mask != 0u; more; more = any_hit && leaves.mask != 0u) {
-            if (inside) {
-                uint place = bvh_take_leaf(leaves, BVH_TRIANGLE_UNITS);
-                TriangleHit met;
-                uint primitive, flags;
-                if (!bvh_meet_triangle(structure, place, ray, t_min, met, primitive, flags)) {
-                    continue;
-                }
-                bool closer = met.t > t_min && (met.t < hit.t || met.t == hit.t
-                    && (!found || instance < hit.instance || instance == hit.instance && primitive < hit.primitive));
-                bool tested = ((flags | instance_flags) & BVH_FLAG_ALPHA_TESTED) != 0u;
-                if (!closer || (tested && !accept_hit(instance, primitive, met.barycentrics))) {
-                    continue;
-                }
-                hit = Hit(met.t, met.barycentrics, primitive, instance, met.front);
-                found = true;
-                if (any_hit) {
-                    return true;
-                }
-            } else {
-                uint place = bvh_take_leaf(leaves, BVH_INSTANCE_UNITS);
-                BvhInstance entered = bvh_instance(structure, place);
-                if ((entered.mask & mask) == 0u) {
-                    continue;
-                }
-                if (bvh_has_nodes(nodes) && height < BVH_STACK_ENTRIES) {
-                    stack[height++] = bvh_pack(nodes);
-                }
-                if (leaves.mask != 0u && height < BVH_STACK_ENTRIES) {
-                    stack[height++] = bvh_pack(leaves);
-                }
-                if ((entered.flags & BVH_FLAG_IDENTITY) == 0u) {
-                    ray = bvh_ray_in_object(structure, place, origin, direction);
-                }
-                structure = entered.blas;
-                inside = true;
-                floor_height = height;
-                instance = entered.id;
-                instance_flags = entered.flags;
-                nodes = BVH_ROOT;
-                leaves.mask = 0u;
+        if (reference == BVH_NOTHING) {
+            if (height == 0u) {
+                break;
             }
+            reference = BVH_POP;
         }
     }
     return found;

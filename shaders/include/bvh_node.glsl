@@ -12,151 +12,138 @@
 #define BVH_SPHERES true
 #endif
 
-const uint BVH_NODE_UNITS = 5u;
+const uint BVH_NODE_UNITS = 8u;
 const uint BVH_TRIANGLE_UNITS = 3u;
 const uint BVH_INSTANCE_UNITS = 7u;
-const uint BVH_STACK_ENTRIES = 32u;
+const uint BVH_STACK_ENTRIES = 128u;
 const uint BVH_MAX_STEPS = 262144u;
+
+const uint BVH_PLACE_BITS = 29u;
+const uint BVH_NOTHING = 4294967295u;
+const uint BVH_ROOT = 0u;
+const uint BVH_PLACE_MASK = (1u << BVH_PLACE_BITS) - 1u;
 
 const uint BVH_FLAG_ALPHA_TESTED = 1u;
 const uint BVH_FLAG_TWO_SIDED = 2u;
 const uint BVH_FLAG_IDENTITY = 4u;
 const uint BVH_FLAG_SPHERE = 8u;
 
-// 64-bit loads: lavapipe gathers component by component, and others merge them anyway.
+// Whether a unit is one load, which graphics processors like best, or two: lavapipe gathers component by component.
+#ifndef BVH_WHOLE_UNITS
+layout(constant_id = 20) const bool BVH_WHOLE_UNITS = false;
+#endif
+
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhUnits {
+    uvec4 unit[];
+};
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer BvhHalfUnits {
     u64vec2 unit[];
 };
 
-// A unit's four words.
-uvec4 bvh_words(u64vec2 unit) {
-    return uvec4(unpackUint2x32(unit.x), unpackUint2x32(unit.y));
+// The four words of a structure's unit.
+uvec4 bvh_unit(uint64_t structure, uint place) {
+    uint64_t at = structure + uint64_t(place) * 16ul;
+    if (BVH_WHOLE_UNITS) {
+        return BvhUnits(at).unit[0];
+    }
+    u64vec2 halves = BvhHalfUnits(at).unit[0];
+    return uvec4(unpackUint2x32(halves.x), unpackUint2x32(halves.y));
 }
 
 // A ray as nodes and triangles see it, in the world or in an object.
 struct BvhRay {
     vec3 origin;
     vec3 inverse;
+    // Less the origin's distances from 0, a little less for planes that are met first, a little more for the last.
+    vec3 start_near;
+    vec3 start_far;
+    uvec3 first; // units of the planes along x, y, z that are met first
     RayShear shear;
-    uint order; // bit 2, 1, 0 set where x, y, z of the direction are not negative
 };
 
 // Components of a direction nearer to 0 than this (2^-80) count as this.
 const float BVH_LEAST_COMPONENT = 8.271806e-25;
-// Rounding of a slab's distances, relative to their terms (2^-21).
-const float BVH_SLAB_ERROR = 4.7683716e-7;
+// Rounding of the origin's part of a plane's distance (2^-22), relative.
+const float BVH_ORIGIN_ERROR = 2.3841858e-7;
+// What planes are moved outwards by, so that a ray along one at 0 stays within it (2^-50).
+const float BVH_PLANE_ERROR = 8.881784e-16;
+// Rounding of distances, in units in the last place.
+const int BVH_DISTANCE_UNITS = 4;
 
 BvhRay bvh_ray(vec3 origin, vec3 direction) {
     uvec3 sign_bits = floatBitsToUint(direction) & 0x80000000u;
     vec3 least = uintBitsToFloat(sign_bits | floatBitsToUint(BVH_LEAST_COMPONENT));
     vec3 safe = mix(direction, least, lessThan(abs(direction), vec3(BVH_LEAST_COMPONENT)));
-    uvec3 positive = (sign_bits >> 31) ^ 1u;
-    uint order = positive.x << 2 | positive.y << 1 | positive.z;
-    return BvhRay(origin, 1.0 / safe, ray_shear(direction), order);
+    vec3 inverse = 1.0 / safe;
+    precise vec3 start = -(origin * inverse);
+    precise vec3 error = fma(abs(inverse), vec3(BVH_PLANE_ERROR), BVH_ORIGIN_ERROR * abs(start));
+    precise vec3 start_near = start - error;
+    precise vec3 start_far = start + error;
+    return BvhRay(origin, inverse, start_near, start_far, uvec3(0u, 2u, 4u) + (sign_bits >> 31), ray_shear(direction));
 }
 
-// Children or leaf records still to visit. In `mask` bits 24..32 are inner children, nearest first
-// from bit 31, with the inner mask of their node in bits 0..8; or bits 0..24 are leaf records.
-struct BvhGroup {
-    uint base;
-    uint mask;
-};
-
-const BvhGroup BVH_ROOT = BvhGroup(0u, 0x80000000u);
-
-// As one word of the stack.
-uint64_t bvh_pack(BvhGroup group) {
-    return packUint2x32(uvec2(group.base, group.mask));
+// References: a node's place; or, with bit 31 set, that of one to four leaf records; or nothing.
+bool bvh_is_node(uint reference) {
+    return int(reference) >= 0;
 }
 
-BvhGroup bvh_unpack(uint64_t word) {
-    uvec2 parts = unpackUint2x32(word);
-    return BvhGroup(parts.x, parts.y);
+bool bvh_is_leaf(uint reference) {
+    return reference >= 0x80000000u && reference != BVH_NOTHING;
 }
 
-bool bvh_has_nodes(BvhGroup group) {
-    return group.mask > 0x00ffffffu;
+// The rest of a leaf of triangles, after its first.
+uint bvh_next_record(uint reference) {
+    bool is_last = (reference & (3u << BVH_PLACE_BITS)) == 0u;
+    return is_last ? BVH_NOTHING : reference - (1u << BVH_PLACE_BITS) + BVH_TRIANGLE_UNITS;
 }
 
-// Takes the nearest inner child; returns where it lies.
-uint bvh_take_node(inout BvhGroup group, uint order) {
-    uint bit = uint(findMSB(group.mask));
-    uint inner_mask = group.mask & 0xffu;
-    group.mask &= ~(1u << bit);
-    uint slot = (bit - 24u) ^ order;
-    uint before = uint(bitCount(inner_mask & ~(0xffffffffu << slot)));
-    return group.base + before * BVH_NODE_UNITS;
-}
+// Of a child that a ray does not meet.
+const int BVH_MISSED = 0x7fffffff;
 
-// Takes a leaf record; returns where it lies.
-uint bvh_take_leaf(inout BvhGroup group, uint units) {
-    uint bit = uint(findMSB(group.mask));
-    group.mask &= ~(1u << bit);
-    return group.base + bit * units;
-}
+// How far the ray goes until it is in the box of each child of the node at `place`, in t_min..t_max, as integers that sort like
+// distances with the child's slot in their last bits; BVH_MISSED where it does not meet it.
+ivec4 bvh_enter(uint64_t structure, uint place, BvhRay ray, float t_min, float t_max, out uvec4 children) {
+    uvec3 last = ray.first ^ 1u;
+    vec4 near_x = uintBitsToFloat(bvh_unit(structure, place + ray.first.x));
+    vec4 far_x = uintBitsToFloat(bvh_unit(structure, place + last.x));
+    vec4 near_y = uintBitsToFloat(bvh_unit(structure, place + ray.first.y));
+    vec4 far_y = uintBitsToFloat(bvh_unit(structure, place + last.y));
+    vec4 near_z = uintBitsToFloat(bvh_unit(structure, place + ray.first.z));
+    vec4 far_z = uintBitsToFloat(bvh_unit(structure, place + last.z));
+    children = bvh_unit(structure, place + 6u);
 
-vec4 bvh_bytes(uint word) {
-    return vec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 0xffu);
-}
-
-// The bits of four slots whose boxes the ray meets in t_min..t_max. `first` and `last` are their planes
-// along x, y, z in the ray's direction, a byte a slot; `order4` is the ray's order in each byte.
-uint bvh_meet_four(uint meta4, uint order4, vec3 scale, vec3 start_near, vec3 start_far, uvec3 first, uvec3 last, float t_min, float t_max) {
     // Signed integers sort like the floats that they are the bits of, down to 0; t_min is not negative.
-    ivec4 near = floatBitsToInt(fma(bvh_bytes(first.x), vec4(scale.x), vec4(start_near.x)));
-    ivec4 far = floatBitsToInt(fma(bvh_bytes(last.x), vec4(scale.x), vec4(start_far.x)));
-    near = max(near, floatBitsToInt(fma(bvh_bytes(first.y), vec4(scale.y), vec4(start_near.y))));
-    far = min(far, floatBitsToInt(fma(bvh_bytes(last.y), vec4(scale.y), vec4(start_far.y))));
-    near = max(near, floatBitsToInt(fma(bvh_bytes(first.z), vec4(scale.z), vec4(start_near.z))));
-    far = min(far, floatBitsToInt(fma(bvh_bytes(last.z), vec4(scale.z), vec4(start_far.z))));
-    bvec4 met = lessThanEqual(max(near, ivec4(floatBitsToInt(t_min))), min(far, ivec4(floatBitsToInt(t_max))));
-
-    // Bytes of 24 or more are inner children: their place is by the ray's order.
-    uint inner4 = (meta4 & (meta4 << 1)) & 0x10101010u;
-    uint place4 = (meta4 ^ (order4 & ((inner4 >> 4) * 0xffu))) & 0x1f1f1f1fu;
-    uint bits4 = (meta4 >> 5) & 0x07070707u;
-    uvec4 place = uvec4(place4, place4 >> 8, place4 >> 16, place4 >> 24) & 0x1fu;
-    uvec4 bits = uvec4(bits4, bits4 >> 8, bits4 >> 16, bits4 >> 24) & 0x7u;
-    uvec4 placed = mix(uvec4(0u), bits << place, met);
-    return placed.x | placed.y | placed.z | placed.w;
+    ivec4 near = floatBitsToInt(fma(near_x, vec4(ray.inverse.x), vec4(ray.start_near.x)));
+    ivec4 far = floatBitsToInt(fma(far_x, vec4(ray.inverse.x), vec4(ray.start_far.x)));
+    near = max(near, floatBitsToInt(fma(near_y, vec4(ray.inverse.y), vec4(ray.start_near.y))));
+    far = min(far, floatBitsToInt(fma(far_y, vec4(ray.inverse.y), vec4(ray.start_far.y))));
+    near = max(near, floatBitsToInt(fma(near_z, vec4(ray.inverse.z), vec4(ray.start_near.z))));
+    far = min(far, floatBitsToInt(fma(far_z, vec4(ray.inverse.z), vec4(ray.start_far.z))));
+    near = max(near, ivec4(floatBitsToInt(t_min)));
+    far = min(far, ivec4(floatBitsToInt(t_max)));
+    bvec4 met = lessThanEqual(near, far + BVH_DISTANCE_UNITS);
+    return mix(ivec4(BVH_MISSED), (near & ~3) | ivec4(0, 1, 2, 3), met);
 }
 
-// Reads the node at `place` and finds which children the ray meets.
-void bvh_visit(uint64_t structure, uint place, BvhRay ray, float t_min, float t_max, out BvhGroup nodes, out BvhGroup leaves) {
-    BvhUnits node = BvhUnits(structure + uint64_t(place) * 16ul);
-    uvec4 head = bvh_words(node.unit[0]);
-    uvec4 body = bvh_words(node.unit[1]);
-    uvec4 planes_0 = bvh_words(node.unit[2]);
-    uvec4 planes_1 = bvh_words(node.unit[3]);
-    uvec4 planes_2 = bvh_words(node.unit[4]);
+// Four numbers from the least to the greatest.
+ivec4 bvh_sorted(ivec4 n) {
+    n = ivec4(min(n.xz, n.yw), max(n.xz, n.yw)).xzyw;
+    n = ivec4(min(n.xy, n.zw), max(n.xy, n.zw));
+    return ivec4(n.x, min(n.y, n.z), max(n.y, n.z), n.w);
+}
 
-    uvec3 exponents = uvec3(head.w, head.w >> 8, head.w >> 16) & 0xffu;
-    vec3 scale = uintBitsToFloat(exponents << 23) * ray.inverse;
-    vec3 start = (uintBitsToFloat(head.xyz) - ray.origin) * ray.inverse;
-    vec3 error = BVH_SLAB_ERROR * (abs(start) + 256.0 * abs(scale));
-    vec3 start_near = start - error;
-    vec3 start_far = start + error;
-
-    // Planes: low x (2 words, 4 slots each), low y, low z, high x, high y, high z.
-    uvec3 low_0 = uvec3(planes_0.x, planes_0.z, planes_1.x);
-    uvec3 low_1 = uvec3(planes_0.y, planes_0.w, planes_1.y);
-    uvec3 high_0 = uvec3(planes_1.z, planes_2.x, planes_2.z);
-    uvec3 high_1 = uvec3(planes_1.w, planes_2.y, planes_2.w);
-    bvec3 positive = bvec3((ray.order & 4u) != 0u, (ray.order & 2u) != 0u, (ray.order & 1u) != 0u);
-    uint order4 = ray.order * 0x01010101u;
-    uint met = bvh_meet_four(body.z, order4, scale, start_near, start_far, mix(high_0, low_0, positive), mix(low_0, high_0, positive), t_min, t_max)
-        | bvh_meet_four(body.w, order4, scale, start_near, start_far, mix(high_1, low_1, positive), mix(low_1, high_1, positive), t_min, t_max);
-
-    nodes = BvhGroup(body.x, (met & 0xff000000u) | head.w >> 24);
-    leaves = BvhGroup(body.y, met & 0x00ffffffu);
+// The reference of a child that was met.
+uint bvh_child(uvec4 children, int met) {
+    uvec2 of_two = (met & 2) != 0 ? children.zw : children.xy;
+    return (met & 1) != 0 ? of_two.y : of_two.x;
 }
 
 // Meets the triangle at `place`, or the sphere beyond t_min; its number and flags are valid where it is met.
 bool bvh_meet_triangle(uint64_t structure, uint place, BvhRay ray, float t_min, out TriangleHit hit, out uint primitive, out uint flags) {
-    BvhUnits triangle = BvhUnits(structure + uint64_t(place) * 16ul);
-    uvec4 first = bvh_words(triangle.unit[0]);
-    uvec4 second = bvh_words(triangle.unit[1]);
-    uvec4 third = bvh_words(triangle.unit[2]);
+    uvec4 first = bvh_unit(structure, place);
+    uvec4 second = bvh_unit(structure, place + 1u);
+    uvec4 third = bvh_unit(structure, place + 2u);
     vec3 a = uintBitsToFloat(first.xyz);
     vec3 b = uintBitsToFloat(uvec3(first.w, second.xy));
     vec3 c = uintBitsToFloat(uvec3(second.zw, third.x));
@@ -180,16 +167,15 @@ struct BvhInstance {
 };
 
 BvhInstance bvh_instance(uint64_t structure, uint place) {
-    uvec4 head = bvh_words(BvhUnits(structure + uint64_t(place) * 16ul).unit[0]);
+    uvec4 head = bvh_unit(structure, place);
     return BvhInstance(packUint2x32(head.xy), head.z, head.w & 0xffu, head.w >> 8);
 }
 
 // The ray in the object space of the instance at `place`.
 BvhRay bvh_ray_in_object(uint64_t structure, uint place, vec3 origin, vec3 direction) {
-    BvhUnits instance = BvhUnits(structure + uint64_t(place) * 16ul);
-    vec4 x = uintBitsToFloat(bvh_words(instance.unit[1]));
-    vec4 y = uintBitsToFloat(bvh_words(instance.unit[2]));
-    vec4 z = uintBitsToFloat(bvh_words(instance.unit[3]));
+    vec4 x = uintBitsToFloat(bvh_unit(structure, place + 1u));
+    vec4 y = uintBitsToFloat(bvh_unit(structure, place + 2u));
+    vec4 z = uintBitsToFloat(bvh_unit(structure, place + 3u));
     vec3 origin_object = vec3(dot(x.xyz, origin) + x.w, dot(y.xyz, origin) + y.w, dot(z.xyz, origin) + z.w);
     vec3 direction_object = vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction));
     return bvh_ray(origin_object, direction_object);

@@ -38,6 +38,10 @@ bool trace(uint64_t world, vec3 origin, vec3 direction, float reach, uint mask, 
 
 #else
 
+// Whether the world holds spheres, which costs every ray.
+layout(constant_id = 0) const bool HAS_SPHERES = true;
+
+#define BVH_SPHERES HAS_SPHERES
 #include "bvh.glsl"
 
 // Which of the pass's invocations this is, a pixel's x and y; it may lie outside of the picture.

@@ -2,11 +2,13 @@
 //!
 //! Closed rooms of a thousand triangles to four million, and meshes from files. Rays are made on the device (`caster`):
 //! a camera's, shadow rays and cosine-distributed bounces from what the camera sees. Each structure (`structure`)
-//! traces the same rays; a plain binary hierarchy is the yardstick. Building, refitting and memory are measured besides.
+//! traces the same rays; a plain binary hierarchy is the yardstick. Building, refitting and memory are measured besides: of
+//! our own on the processor, of the driver's by the device's clock.
 
 mod binary;
 mod build;
 mod caster;
+mod hardware;
 mod npz;
 mod rows;
 mod structure;
@@ -14,7 +16,8 @@ mod subject;
 
 use std::path::{Path, PathBuf};
 
-use afterglow_gpu::{DeviceKind, Gpu};
+use afterglow_bvh::Quality;
+use afterglow_gpu::{DeviceKind, Gpu, GpuError};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
@@ -43,6 +46,9 @@ pub struct Arguments {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(0..=50_000_000),
           default_value = "1000,30000,300000,1000000,4000000")]
     triangles: Vec<u32>,
+    /// Trees of our own that rays go through
+    #[arg(long, value_enum, default_value = "good")]
+    quality: Trees,
     /// Time for each figure, in milliseconds; each is of at least three runs
     #[arg(long, value_name = "MS", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=60_000))]
     time: u32,
@@ -60,6 +66,15 @@ enum Backend {
     Hardware,
     /// Both
     Both,
+}
+
+/// Which trees are built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Trees {
+    /// Those that are built fast, and no others
+    Fast,
+    /// Both kinds, of which rays go through the better one
+    Good,
 }
 
 /// All figures.
@@ -87,7 +102,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let rooms = arguments.triangles.iter().map(|&triangles| Ok(Subject::room(triangles)));
     let meshes = arguments.mesh.iter().map(|path| Subject::file(path));
     for subject in rooms.chain(meshes) {
-        let row = measure(&gpu, &caster, &subject?, arguments.backend)?;
+        let row = measure(&gpu, &caster, &subject?, arguments)?;
         if prints {
             output::print(|out| row.write(out))?;
         }
@@ -100,24 +115,35 @@ fn measure(
     gpu: &Gpu,
     caster: &Caster,
     subject: &Subject,
-    backend: Backend,
+    arguments: &Arguments,
 ) -> Result<rows::SubjectRow, Failure> {
-    let (blas, build) = build::measure(subject)?;
+    let quality = match arguments.quality {
+        Trees::Fast => Quality::Fast,
+        Trees::Good => Quality::Good,
+    };
+    let (blas, build) = build::measure(subject, quality)?;
     let wide = structure::Wide::new(gpu, &blas)?;
     let rays = caster.make_rays(gpu, subject, &wide)?;
     let plain = structure::Plain::new(gpu, subject)?;
     let mut row = rows::SubjectRow::new(subject, build);
     let mut structures: Vec<&dyn Structure> = vec![&plain];
-    if backend != Backend::Hardware {
+    if arguments.backend != Backend::Hardware {
         structures.push(&wide);
     }
-    let hardware = match backend {
-        Backend::Software => None,
-        Backend::Hardware | Backend::Both => structure::hardware(gpu, subject)?,
-    };
-    structures.extend(hardware.as_deref());
-    if backend != Backend::Software && hardware.is_none() {
-        row.not_there.push("hardware");
+    let hardware;
+    if arguments.backend != Backend::Software {
+        match hardware::measure(gpu, subject) {
+            Ok((built, driver)) => {
+                row.driver = Some(driver);
+                hardware = built;
+                structures.push(&hardware);
+            }
+            // What the device lacks, or has not enough room for, is no failure of the others.
+            Err(Failure::Device(error @ (GpuError::Unsupported { .. } | GpuError::Invalid { .. }))) => {
+                row.not_there.push(("hardware", error.to_string()));
+            }
+            Err(error) => return Err(error),
+        }
     }
     row.structures = caster.measure(gpu, &structures, &rays)?;
     Ok(row)
@@ -130,4 +156,31 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
         _ => Err(format!("not a multiple of {step} from 8 to 8192")),
     };
     Ok([side(width, 8)?, side(height, 4)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use afterglow_gpu::GpuOptions;
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    #[test]
+    fn all_structures_give_the_same_answers() {
+        let gpu = Gpu::new(&GpuOptions::for_tests()).unwrap();
+        let caster = Caster::new(&gpu, [64, 32], 1).unwrap();
+        let line = Line::parse_from(["rays", "--quality", "fast"]);
+        let row = measure(&gpu, &caster, &Subject::room(1000), &line.arguments).unwrap();
+        assert!(row.build.good_mtriangles.is_none());
+        assert_eq!((row.structures.len(), row.not_there.len(), row.driver.is_some()), (3, 0, true));
+        let rays = row.structures.iter().flat_map(|structure| &structure.rays);
+        assert!(rays.clone().all(|rays| rays.differing == 0));
+        assert!(rays.filter(|rays| rays.kind != "shadow").all(|rays| rays.hit_share == 1.0));
+    }
 }

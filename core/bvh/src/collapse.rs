@@ -1,4 +1,4 @@
-//! Which nodes of a binary tree become nodes of the eight-wide tree, and which become leaves: the
+//! Which nodes of a binary tree become nodes of the four-wide tree, and which become leaves: the
 //! choice of least surface-area cost, by dynamic programming (Ylitie, Karras and Laine 2017,
 //! section 3.1).
 
@@ -8,14 +8,14 @@ use crate::layout::WIDTH;
 /// Cost of visiting a wide node.
 const COST_NODE: f32 = 1.0;
 /// Cost of one leaf record, relative to a node.
-const COST_LEAF: f32 = 0.3;
+const COST_LEAF: f32 = 0.8;
 
 /// How children are gathered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
     /// Least expected cost.
     SurfaceArea,
-    /// Three levels of the binary tree a node: depth log8 of the count over a balanced tree.
+    /// Two levels of the binary tree a node: depth log4 of the count over a balanced tree.
     Balanced,
 }
 
@@ -30,7 +30,7 @@ pub(crate) struct Plan<'a> {
 /// The best ways to show one binary node as at most i + 1 children of a wide node.
 #[derive(Clone, Copy)]
 struct Choice {
-    /// Least costs, i = 0..7.
+    /// Least costs, i = 0..3.
     cost: [f32; WIDTH - 1],
     /// Slots that go to the left child; 0: no better than with one slot fewer. `share[0]` is unused.
     share: [u8; WIDTH],
@@ -56,7 +56,7 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// The children of the wide node that stands for binary node `node`: one to eight.
+    /// The children of the wide node that stands for binary node `node`: one to four.
     pub fn children(&self, node: usize, children: &mut Vec<usize>) {
         children.clear();
         if self.tree.is_leaf(node) {
@@ -193,10 +193,10 @@ mod tests {
     }
 
     #[test]
-    fn balanced_depth_is_log8() {
+    fn balanced_depth_is_log4() {
         let boxes = vec![Aabb::around(&[glam::Vec3::ZERO]); 4096];
         let tree = build(&boxes, Split::Median);
         let plan = Plan::new(&tree, 1, Shape::Balanced);
-        assert_eq!(walk(&plan, 0, 1, 1), (4096, 4));
+        assert_eq!(walk(&plan, 0, 1, 1), (4096, 6));
     }
 }

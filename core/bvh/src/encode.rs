@@ -1,16 +1,14 @@
-//! From a binary tree to the nodes that shaders read: children in octant slots, boxes on 8-bit grids.
+//! From a binary tree to the nodes that shaders read.
 
 use crate::binary::{BinaryTree, Split, build};
 use crate::bounds::Aabb;
 use crate::collapse::{Plan, Shape};
-use crate::layout::{NODE_UNITS, Node, WIDTH};
-use bytemuck::Zeroable;
-use glam::Vec3;
+use crate::layout::{Child, NODE_UNITS, Node, WIDTH};
 
-/// A wide tree, references not yet in units of a buffer.
+/// A wide tree whose leaf records have no place in a buffer yet.
 #[derive(Debug)]
 pub(crate) struct WideTree {
-    /// The nodes, root first; `leaf_base` counts leaf records, `child_base` is final.
+    /// The nodes, root first, children after their parents and beside their siblings. The places of leaves count records.
     pub nodes: Vec<Node>,
     /// The primitives in the order of the leaf records.
     pub order: Vec<u32>,
@@ -19,37 +17,36 @@ pub(crate) struct WideTree {
 }
 
 impl WideTree {
-    /// Turns `leaf_base` into units: records of `leaf_units` follow the nodes.
+    /// Turns leaves' places into units: records of `leaf_units` follow the nodes.
     pub fn place_leaves(&mut self, leaf_units: u32) {
         let start = self.nodes.len() as u32 * NODE_UNITS;
-        for node in &mut self.nodes {
-            node.leaf_base = start + node.leaf_base * leaf_units;
+        for reference in self.nodes.iter_mut().flat_map(|node| &mut node.children) {
+            if let Child::Leaf { place, count } = Child::of(*reference) {
+                *reference = Child::Leaf { place: start + place * leaf_units, count }.reference();
+            }
         }
     }
-}
 
-impl WideTree {
-    /// Makes `slot` of `node` a leaf of `members`.
-    fn append_leaf(&mut self, node: &mut Node, slot: usize, members: &[u32]) {
-        let offset = self.order.len() as u32 - node.leaf_base;
-        let ones = (1u32 << members.len()) - 1;
-        node.meta[slot] = (ones << 5 | offset) as u8;
-        self.order.extend_from_slice(members);
-    }
-
-    /// Makes `slot` of `node` an inner node, yet to be written; returns its place.
-    fn append_inner(&mut self, node: &mut Node, slot: usize) -> usize {
-        node.inner_mask |= 1 << slot;
-        node.meta[slot] = 0x20 | (24 + slot as u8);
-        self.nodes.push(Node::zeroed());
-        self.nodes.len() - 1
+    /// The most children that wait while a ray is somewhere in the tree, in the worst order.
+    fn most_waiting(&self) -> u32 {
+        let mut waiting = vec![0; self.nodes.len()];
+        for (place, node) in self.nodes.iter().enumerate().rev() {
+            let children = node.children.map(Child::of);
+            let others = children.iter().filter(|&&child| child != Child::Nothing).count() as u32;
+            let below = children.iter().map(|child| match child {
+                Child::Inner(unit) => waiting[(unit / NODE_UNITS) as usize],
+                _ => 0,
+            });
+            waiting[place] = others.saturating_sub(1) + below.max().unwrap_or(0);
+        }
+        waiting[0]
     }
 }
 
-/// Encodes `tree`; if that would be deeper than `max_depth`, a balanced tree over the same `boxes`.
-pub(crate) fn encode(tree: &BinaryTree, boxes: &[Aabb], max_leaf: u32, max_depth: u32) -> WideTree {
+/// Encodes `tree`; if more than `most_waiting` children could have to wait in it, a balanced tree over the same `boxes`.
+pub(crate) fn encode(tree: &BinaryTree, boxes: &[Aabb], max_leaf: u32, most_waiting: u32) -> WideTree {
     let wide = encode_plan(tree, &Plan::new(tree, max_leaf, Shape::SurfaceArea));
-    if wide.depth <= max_depth {
+    if wide.most_waiting() <= most_waiting {
         return wide;
     }
     let tree = build(boxes, Split::Median);
@@ -65,7 +62,7 @@ struct Pending {
 
 fn encode_plan(tree: &BinaryTree, plan: &Plan) -> WideTree {
     let mut wide =
-        WideTree { nodes: vec![Node::zeroed()], order: Vec::with_capacity(tree.order.len()), depth: 1 };
+        WideTree { nodes: vec![Node::EMPTY], order: Vec::with_capacity(tree.order.len()), depth: 1 };
     if tree.nodes.is_empty() {
         return wide;
     }
@@ -74,109 +71,26 @@ fn encode_plan(tree: &BinaryTree, plan: &Plan) -> WideTree {
     while let Some(Pending { binary, place, depth }) = pending.pop() {
         wide.depth = wide.depth.max(depth);
         plan.children(binary, &mut children);
-        let slots = assign_slots(tree, binary, &children);
-        let mut node = start_node(&tree.nodes[binary].bounds);
-        node.child_base = wide.nodes.len() as u32 * NODE_UNITS;
-        node.leaf_base = wide.order.len() as u32;
-        for (slot, child) in slots.into_iter().enumerate() {
-            let Some(child) = child else { continue };
+        let mut node = Node::EMPTY;
+        for (slot, &child) in children.iter().enumerate() {
             let below = &tree.nodes[child];
-            set_child_bounds(&mut node, slot, &below.bounds);
-            if plan.is_leaf(child) {
+            node.set_bounds(slot, &below.bounds);
+            let holds = if plan.is_leaf(child) {
+                let first = wide.order.len() as u32;
                 let members = below.first as usize..(below.first + below.count) as usize;
-                wide.append_leaf(&mut node, slot, &tree.order[members]);
+                wide.order.extend_from_slice(&tree.order[members]);
+                Child::Leaf { place: first, count: below.count }
             } else {
-                let place = wide.append_inner(&mut node, slot);
+                let place = wide.nodes.len();
+                wide.nodes.push(Node::EMPTY);
                 pending.push(Pending { binary: child, place, depth: depth + 1 });
-            }
+                Child::Inner(place as u32 * NODE_UNITS)
+            };
+            node.children[slot] = holds.reference();
         }
         wide.nodes[place] = node;
     }
     wide
-}
-
-/// Gives each child a slot, so that slots sort the children along rays of any octant: greedily the
-/// pair of child and free slot whose direction fits best.
-fn assign_slots(tree: &BinaryTree, parent: usize, children: &[usize]) -> [Option<usize>; WIDTH] {
-    let centre = tree.nodes[parent].bounds.centroid_doubled();
-    let mut fit = [[f32::NEG_INFINITY; WIDTH]; WIDTH];
-    for (fit, &child) in fit.iter_mut().zip(children) {
-        let towards = tree.nodes[child].bounds.centroid_doubled() - centre;
-        for (slot, fit) in fit.iter_mut().enumerate() {
-            *fit = towards.dot(slot_direction(slot));
-        }
-    }
-    let mut slots = [None; WIDTH];
-    let mut placed = [false; WIDTH];
-    for _ in 0..children.len() {
-        let mut best = None;
-        for child in (0..children.len()).filter(|&child| !placed[child]) {
-            for slot in (0..WIDTH).filter(|&slot| slots[slot].is_none()) {
-                let better = best.is_none_or(|(c, s): (usize, usize)| fit[child][slot] > fit[c][s]);
-                if better {
-                    best = Some((child, slot));
-                }
-            }
-        }
-        if let Some((child, slot)) = best {
-            placed[child] = true;
-            slots[slot] = Some(children[child]);
-        }
-    }
-    slots
-}
-
-/// Slot bits 2, 1, 0 are the signs of x, y, z: set is positive.
-fn slot_direction(slot: usize) -> Vec3 {
-    let sign = |bit: usize| if slot & bit != 0 { 1.0 } else { -1.0 };
-    Vec3::new(sign(4), sign(2), sign(1))
-}
-
-/// A node without children whose grid spans `bounds`.
-pub(crate) fn start_node(bounds: &Aabb) -> Node {
-    let extent = bounds.max.as_dvec3() - bounds.min.as_dvec3();
-    Node {
-        origin: bounds.min.to_array().map(f32::to_bits),
-        exponents: extent.to_array().map(spacing_exponent),
-        ..Node::zeroed()
-    }
-}
-
-/// The biased exponent of the least power of two that spans `extent` in 255 steps, at least 2^-100.
-fn spacing_exponent(extent: f64) -> u8 {
-    let exponent = ((extent / 255.0).to_bits() >> 52) as i32 - 1023 + 127;
-    let exponent = exponent.clamp(27, 253) as u8;
-    // The division's own exponent rounds down: at most one step is missing.
-    exponent + u8::from(spacing(exponent) * 255.0 < extent)
-}
-
-/// 2 to the biased `exponent`.
-fn spacing(exponent: u8) -> f64 {
-    f64::from(f32::from_bits(u32::from(exponent) << 23))
-}
-
-/// Sets the box of `slot`, rounded outwards to the grid.
-pub(crate) fn set_child_bounds(node: &mut Node, slot: usize, bounds: &Aabb) {
-    for axis in 0..3 {
-        let origin = f64::from(f32::from_bits(node.origin[axis]));
-        let scale = 1.0 / spacing(node.exponents[axis]);
-        let plane = |coordinate: f32| (f64::from(coordinate) - origin) * scale;
-        node.low[axis][slot] = plane(bounds.min[axis]).floor().clamp(0.0, 255.0) as u8;
-        node.high[axis][slot] = plane(bounds.max[axis]).ceil().clamp(0.0, 255.0) as u8;
-    }
-}
-
-/// The box of `slot` as the grid has it, in f64.
-#[cfg(test)]
-pub(crate) fn child_bounds(node: &Node, slot: usize) -> (glam::DVec3, glam::DVec3) {
-    let plane = |axis: usize, q: u8| {
-        let origin = f64::from(f32::from_bits(node.origin[axis]));
-        origin + f64::from(q) * spacing(node.exponents[axis])
-    };
-    (
-        [0, 1, 2].map(|axis| plane(axis, node.low[axis][slot])).into(),
-        [0, 1, 2].map(|axis| plane(axis, node.high[axis][slot])).into(),
-    )
 }
 
 #[cfg(test)]
@@ -199,33 +113,35 @@ mod tests {
     fn walk(wide: &WideTree, place: usize, boxes: &[Aabb], seen: &mut Vec<u32>) {
         let node = &wide.nodes[place];
         for slot in 0..WIDTH {
-            let (low, high) = child_bounds(node, slot);
-            if node.inner_mask & (1 << slot) != 0 {
-                let before = (node.inner_mask & ((1 << slot) - 1)).count_ones();
-                let child = (node.child_base / NODE_UNITS + before) as usize;
-                let inner = &wide.nodes[child];
-                let origin = Vec3::from(inner.origin.map(f32::from_bits)).as_dvec3();
-                assert!(origin.cmpge(low).all() && origin.cmple(high).all());
-                walk(wide, child, boxes, seen);
-                continue;
-            }
-            let count = (node.meta[slot] >> 5).count_ones();
-            let first = node.leaf_base + u32::from(node.meta[slot] & 31);
-            for &primitive in &wide.order[first as usize..(first + count) as usize] {
-                let bounds = &boxes[primitive as usize];
-                assert!(low.cmple(bounds.min.as_dvec3()).all());
-                assert!(high.cmpge(bounds.max.as_dvec3()).all());
-                seen.push(primitive);
+            let bounds = node.bounds(slot);
+            let holds = |inner: Aabb| bounds.union(inner) == bounds;
+            match Child::of(node.children[slot]) {
+                Child::Nothing => assert!(bounds.is_empty()),
+                Child::Inner(unit) => {
+                    let child = (unit / NODE_UNITS) as usize;
+                    let inner = &wide.nodes[child];
+                    let children =
+                        (0..WIDTH).filter(|&slot| Child::of(inner.children[slot]) != Child::Nothing);
+                    assert!(children.into_iter().all(|slot| holds(inner.bounds(slot))));
+                    assert!(child > place);
+                    walk(wide, child, boxes, seen);
+                }
+                Child::Leaf { place, count } => {
+                    for &primitive in &wide.order[place as usize..(place + count) as usize] {
+                        assert!(holds(boxes[primitive as usize]));
+                        seen.push(primitive);
+                    }
+                }
             }
         }
     }
 
     #[test]
-    fn quantised_boxes_hold_their_primitives() {
+    fn boxes_hold_their_primitives() {
         for (count, scale) in [(1, 1.0), (5, 1e-12), (300, 1e10), (4000, 30.0)] {
             let boxes = soup(count, scale);
             let tree = build(&boxes, Split::SurfaceArea);
-            let wide = encode(&tree, &boxes, MAX_LEAF, 20);
+            let wide = encode(&tree, &boxes, MAX_LEAF, 56);
             let mut seen = Vec::new();
             walk(&wide, 0, &boxes, &mut seen);
             seen.sort_unstable();
@@ -235,34 +151,10 @@ mod tests {
 
     #[test]
     fn a_tree_too_deep_is_rebuilt_balanced() {
-        let boxes = soup(4000, 1.0);
+        let boxes = soup(4096, 1.0);
         let tree = build(&boxes, Split::SurfaceArea);
-        let wide = encode(&tree, &boxes, MAX_LEAF, 4);
-        assert_eq!(wide.depth, 4);
-        assert_eq!(wide.order.len(), 4000);
-    }
-
-    #[test]
-    fn slots_follow_octants() {
-        let corners: Vec<Aabb> = (0..8)
-            .map(|slot| slot_direction(7 - slot))
-            .map(|corner| Aabb::around(&[corner * 5.0, corner * 6.0]))
-            .collect();
-        let tree = build(&corners, Split::SurfaceArea);
-        let wide = encode(&tree, &corners, 1, 4);
-        let node = &wide.nodes[0];
-        for slot in 0..WIDTH {
-            let primitive = wide.order[usize::from(node.meta[slot] & 31)];
-            assert_eq!(primitive as usize, 7 - slot);
-        }
-    }
-
-    #[test]
-    fn the_grid_spans_the_extent() {
-        for extent in [0.0, 1e-30, 0.999, 255.0, 255.001, 2e11] {
-            let exponent = spacing_exponent(extent);
-            assert!(spacing(exponent) * 255.0 >= extent);
-            assert!(exponent == 27 || spacing(exponent - 1) * 255.0 < extent);
-        }
+        let wide = encode(&tree, &boxes, 1, 18);
+        assert_eq!((wide.depth, wide.most_waiting()), (6, 18));
+        assert_eq!(wide.order.len(), 4096);
     }
 }

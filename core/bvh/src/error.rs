@@ -3,7 +3,7 @@
 /// Input that no structure can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
-    /// References are 32-bit counts of 16 bytes.
+    /// References are 29-bit counts of 16 bytes.
     #[error("{count} primitives in one structure, more than the {limit} that references reach")]
     TooMany {
         /// How many were given.
@@ -22,7 +22,7 @@ pub enum BuildError {
 }
 
 /// Most primitives of one structure.
-pub(crate) const MAX_PRIMITIVES: usize = 1 << 27;
+pub(crate) const MAX_PRIMITIVES: usize = 1 << 25;
 
 /// Refuses what references cannot reach.
 pub(crate) fn check_count(count: usize) -> Result<(), BuildError> {

@@ -5,27 +5,35 @@
 //! `shaders/include/bvh_node.glsl` is the reader; a test compares its constants with these.
 
 use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+
+use crate::bounds::Aabb;
 
 /// Bytes of one unit of reference, and the alignment of structures.
 pub const UNIT_BYTES: usize = 16;
 /// Units of a [`Node`].
-pub const NODE_UNITS: u32 = 5;
+pub const NODE_UNITS: u32 = 8;
 /// Units of a [`Triangle`].
 pub const TRIANGLE_UNITS: u32 = 3;
 /// Units of an [`InstanceRecord`].
 pub const INSTANCE_UNITS: u32 = 7;
 
-/// Most children of a node.
-pub const WIDTH: usize = 8;
-/// Most leaf records in one child slot.
-pub const MAX_LEAF: u32 = 3;
+/// Number of the shaders' specialization constant that says whether units are loaded whole (1), which is for graphics
+/// processors, or in halves (0), for processors.
+pub const WHOLE_UNITS_CONSTANT: u32 = 20;
 
-/// Most levels of nodes in a bottom level; the builder keeps it, the shader's stack relies on it.
-pub const MAX_DEPTH_BLAS: u32 = 20;
-/// Most levels of nodes in a top level.
-pub const MAX_DEPTH_TLAS: u32 = 10;
-/// Entries of the traversal stack: one a level, and two where a ray enters an instance.
-pub const STACK_ENTRIES: usize = 32;
+/// Most children of a node.
+pub const WIDTH: usize = 4;
+/// Most leaf records in one child; two bits of a reference count them.
+pub const MAX_LEAF: u32 = 4;
+
+/// Most children that wait while a ray is somewhere in a bottom level, whatever its order; the builder keeps it, the
+/// shader's stack relies on it.
+pub const MOST_WAITING_BLAS: u32 = 88;
+/// The same of a top level.
+pub const MOST_WAITING_TLAS: u32 = 40;
+/// Entries of the traversal stack.
+pub const STACK_ENTRIES: usize = 128;
 /// Most steps of one ray, a node or a leaf record each: malformed data cannot hang a device.
 pub const MAX_STEPS: u32 = 1 << 18;
 
@@ -42,34 +50,84 @@ pub const FLAG_IDENTITY: u32 = 4;
 /// Triangle flag, set by the builder: the record is of a sphere.
 pub const FLAG_SPHERE: u32 = 8;
 
-/// A node of up to eight children, their boxes quantised to 8 bits on a grid of the node's own
-/// (Ylitie, Karras and Laine, Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
-/// BVHs, HPG 2017). 80 bytes.
+/// A node of up to four children. 128 bytes, a line of most caches.
 ///
-/// Plane `q` of axis `a` lies at `origin[a] + q * 2^(exponents[a] - 127)`. A node's inner children
-/// lie one after the other from `child_base`, in the order of their slots; so do its leaf records
-/// from `leaf_base`. Slots are assigned by octant: bit 2, 1, 0 of a slot says whether the child lies
-/// towards positive x, y, z, so that `slot ^ sign bits` sorts the children along any ray.
+/// The planes of an axis lie together, so that a ray reads those that it meets first, and those that it meets last, of all
+/// children at once. A slot that holds nothing has a box that no ray meets.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Node {
-    /// Least corner of the node's box, f32 bits (offset 0).
-    pub origin: [u32; 3],
-    /// Biased exponent of the grid's spacing along x, y, z (offset 12).
-    pub exponents: [u8; 3],
-    /// Bit `s`: slot `s` holds an inner node (offset 15).
-    pub inner_mask: u8,
-    /// Where the first inner child lies, in units (offset 16).
-    pub child_base: u32,
-    /// Where the first leaf record lies, in units (offset 20).
-    pub leaf_base: u32,
-    /// What each slot holds (offset 24): 0 nothing; an inner node `0x20 | 24 + slot`; a leaf of n
-    /// records from number k of the node's: n ones from bit 5, `k` below.
-    pub meta: [u8; WIDTH],
-    /// Least planes of the slots along x, y, z (offset 32).
-    pub low: [[u8; WIDTH]; 3],
-    /// Greatest planes of the slots along x, y, z (offset 56).
-    pub high: [[u8; WIDTH]; 3],
+    /// Along x, y, z the least planes of the children's boxes, then the greatest (offset 0).
+    pub planes: [[[f32; WIDTH]; 2]; 3],
+    /// What each child is, as [`Child::reference`] has it (offset 96).
+    pub children: [u32; WIDTH],
+    /// 0 (offset 112).
+    pub reserved: [u32; 4],
+}
+
+/// What a slot of a node holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Child {
+    /// Nothing.
+    Nothing,
+    /// A node, by its place in units.
+    Inner(u32),
+    /// One to four leaf records that follow one another, by the place of the first in units.
+    Leaf {
+        /// Where the first lies.
+        place: u32,
+        /// How many.
+        count: u32,
+    },
+}
+
+/// The reference of a slot that holds nothing.
+pub const NOTHING: u32 = u32::MAX;
+/// A reference's bits of its place; above are the count of leaf records less one, and the bit that says that it is a leaf.
+pub const PLACE_BITS: u32 = 29;
+
+impl Child {
+    /// As nodes have it.
+    pub fn reference(self) -> u32 {
+        match self {
+            Self::Nothing => NOTHING,
+            Self::Inner(place) => place,
+            Self::Leaf { place, count } => 1 << 31 | (count - 1) << PLACE_BITS | place,
+        }
+    }
+
+    /// Of a node's reference.
+    pub fn of(reference: u32) -> Self {
+        let place = reference & ((1 << PLACE_BITS) - 1);
+        match reference {
+            NOTHING => Self::Nothing,
+            _ if reference >> 31 == 0 => Self::Inner(place),
+            _ => Self::Leaf { place, count: (reference >> PLACE_BITS & 3) + 1 },
+        }
+    }
+}
+
+impl Node {
+    /// A node without children.
+    pub const EMPTY: Self = Self {
+        planes: [[[f32::MAX; WIDTH], [f32::MIN; WIDTH]]; 3],
+        children: [NOTHING; WIDTH],
+        reserved: [0; 4],
+    };
+
+    /// The box of a slot, empty where it holds nothing.
+    pub fn bounds(&self, slot: usize) -> Aabb {
+        let corner = |side: usize| Vec3::from([0, 1, 2].map(|axis| self.planes[axis][side][slot]));
+        Aabb { min: corner(0), max: corner(1) }
+    }
+
+    /// Sets the box of a slot.
+    pub fn set_bounds(&mut self, slot: usize, bounds: &Aabb) {
+        for axis in 0..3 {
+            self.planes[axis][0][slot] = bounds.min[axis];
+            self.planes[axis][1][slot] = bounds.max[axis];
+        }
+    }
 }
 
 /// A leaf record of a bottom level: a triangle, or where its flags say so a sphere. 48 bytes.
@@ -159,7 +217,7 @@ mod tests {
     #[test]
     fn sizes_are_the_documented_units() {
         let units = |bytes: usize| (bytes / UNIT_BYTES) as u32;
-        assert_eq!(size_of::<Node>(), 80);
+        assert_eq!(size_of::<Node>(), 128);
         assert_eq!(units(size_of::<Node>()), NODE_UNITS);
         assert_eq!(size_of::<Triangle>(), 48);
         assert_eq!(units(size_of::<Triangle>()), TRIANGLE_UNITS);
@@ -169,11 +227,7 @@ mod tests {
 
     #[test]
     fn offsets_are_the_documented_ones() {
-        assert_eq!(offset_of!(Node, exponents), 12);
-        assert_eq!(offset_of!(Node, child_base), 16);
-        assert_eq!(offset_of!(Node, meta), 24);
-        assert_eq!(offset_of!(Node, low), 32);
-        assert_eq!(offset_of!(Node, high), 56);
+        assert_eq!(offset_of!(Node, children), 96);
         assert_eq!(offset_of!(Triangle, primitive), 36);
         assert_eq!(offset_of!(InstanceRecord, world_to_object), 16);
         assert_eq!(offset_of!(InstanceRecord, object_to_world), 64);
@@ -181,7 +235,7 @@ mod tests {
 
     #[test]
     fn a_record_outside_the_words_is_none() {
-        let words = [0u32; 24];
+        let words = [0u32; 36];
         assert!(record::<Node>(&words, 0).is_some());
         assert!(record::<Node>(&words, 2).is_none());
         assert!(record::<Node>(&words, u32::MAX).is_none());
@@ -196,6 +250,8 @@ mod tests {
             ("INSTANCE_UNITS", INSTANCE_UNITS),
             ("STACK_ENTRIES", STACK_ENTRIES as u32),
             ("MAX_STEPS", MAX_STEPS),
+            ("PLACE_BITS", PLACE_BITS),
+            ("NOTHING", NOTHING),
             ("FLAG_ALPHA_TESTED", FLAG_ALPHA_TESTED),
             ("FLAG_TWO_SIDED", FLAG_TWO_SIDED),
             ("FLAG_IDENTITY", FLAG_IDENTITY),
@@ -208,6 +264,21 @@ mod tests {
 
     #[test]
     fn the_stack_holds_both_levels() {
-        assert!(MAX_DEPTH_BLAS as usize + MAX_DEPTH_TLAS as usize + 2 <= STACK_ENTRIES);
+        assert!((MOST_WAITING_BLAS + MOST_WAITING_TLAS) as usize <= STACK_ENTRIES);
+    }
+
+    #[test]
+    fn references_say_what_they_are_made_of() {
+        let leaf = |place, count| Child::Leaf { place, count };
+        for child in [
+            Child::Nothing,
+            Child::Inner(0),
+            Child::Inner(8 << 20),
+            leaf(0, 1),
+            leaf((1 << 29) - 3, 3),
+            leaf(24, 4),
+        ] {
+            assert_eq!(Child::of(child.reference()), child);
+        }
     }
 }

@@ -3,7 +3,7 @@
 //! words.
 //!
 //! Triangles → [`build_blas`] → [`Blas`], copied to the device; instances that name the addresses →
-//! [`build_tlas`] → [`Tlas`]. One node format serves both: eight-wide, boxes quantised to 8 bits.
+//! [`build_tlas`] → [`Tlas`]. One node format serves both: four-wide, boxes in f32.
 
 mod binary;
 mod blas;
@@ -16,6 +16,7 @@ pub mod layout;
 mod optimise;
 mod refit;
 pub mod room;
+mod split;
 mod tlas;
 pub mod traverse;
 

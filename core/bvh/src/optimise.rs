@@ -8,17 +8,25 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 
-/// Share of the nodes that each round looks at.
-const BATCH_RATIO: f32 = 0.05;
+/// The mean area of nodes, relative to that of all, from which on they overlap too much.
+const MOST_OVERLAP: f32 = 0.1;
 
-/// The same primitives in a tree of no greater cost.
-pub(crate) fn optimise(tree: BinaryTree, boxes: &[Aabb]) -> BinaryTree {
-    if tree.nodes.len() < 7 {
+/// The same primitives in a tree of no greater cost; a round looks at a share `ratio` of the nodes.
+pub(crate) fn optimise(tree: BinaryTree, boxes: &[Aabb], ratio: f32) -> BinaryTree {
+    if tree.nodes.len() < 7 || overlaps_all_over(&tree) {
         return tree;
     }
     let mut theirs = to_obvhs(&tree);
-    ReinsertionOptimizer::default().run(&mut theirs, BATCH_RATIO, None);
+    ReinsertionOptimizer::default().run(&mut theirs, ratio, None);
     from_obvhs(&theirs, boxes)
+}
+
+/// Whether nodes are about as large as all together, as of primitives that lie upon one another: reinsertion could gain nothing,
+/// and would look at every node for every other.
+fn overlaps_all_over(tree: &BinaryTree) -> bool {
+    let total: f32 = tree.nodes.iter().map(|node| node.bounds.half_area()).sum();
+    total >= MOST_OVERLAP * tree.nodes.len() as f32 * tree.nodes[0].bounds.half_area()
+        && tree.nodes.len() > 1000
 }
 
 /// The tree in their form: siblings side by side, the root at 0.
@@ -104,7 +112,7 @@ mod tests {
             })
             .collect();
         let before = build(&boxes, Split::SurfaceArea);
-        let after = optimise(before.clone(), &boxes);
+        let after = optimise(before.clone(), &boxes, 0.2);
         let mut seen = after.order.clone();
         seen.sort_unstable();
         assert!(seen.into_iter().eq(0..2000));

@@ -1,16 +1,14 @@
-//! A bottom level whose triangles moved: new boxes in the old tree, requantised node by node. The
-//! model of a refit on the device.
+//! A bottom level whose triangles moved: new boxes in the old tree. The model of a refit on the device.
 
 use crate::blas::{Blas, bounds_of, corners_of};
 use crate::bounds::Aabb;
-use crate::encode::{set_child_bounds, start_node};
-use crate::layout::{NODE_UNITS, Node, TRIANGLE_UNITS, Triangle, WIDTH};
+use crate::layout::{Child, NODE_UNITS, Node, TRIANGLE_UNITS, Triangle, WIDTH};
 
 impl Blas {
     /// Moves every triangle, but no sphere, to `corners(primitive)`, three of `positions`. Triangles are neither added
     /// nor taken away: those left out by the build stay out, and one that cannot be hit any more
     /// (index or coordinate out of range, no area) stays where it was. Rays get slower the more the
-    /// shape changes; [`crate::build_blas`] anew then.
+    /// shape changes; [`crate::build_blas`] anew then. Boxes become those of whole triangles, of split ones too.
     pub fn refit(&mut self, positions: &[[f32; 3]], corners: impl Fn(u32) -> [u32; 3]) {
         let (nodes, triangles) = self.words.split_at_mut(self.node_count as usize * NODE_WORDS);
         let nodes: &mut [Node] = bytemuck::cast_slice_mut(nodes);
@@ -20,56 +18,34 @@ impl Blas {
                 triangle.vertices = moved;
             }
         }
-        let mut bounds = vec![Aabb::EMPTY; nodes.len()];
+        let first_leaf = nodes.len() as u32 * NODE_UNITS;
         // Children follow their parents.
         for place in (0..nodes.len()).rev() {
-            let children = children_bounds(&nodes[place], nodes.len() as u32, &bounds, triangles);
-            bounds[place] = children.iter().flatten().fold(Aabb::EMPTY, |sum, &b| sum.union(b));
-            refit_node(&mut nodes[place], &bounds[place], &children);
+            let mut node = nodes[place];
+            for slot in 0..WIDTH {
+                let bounds = match Child::of(node.children[slot]) {
+                    Child::Nothing => continue,
+                    Child::Inner(unit) => around_children(&nodes[(unit / NODE_UNITS) as usize]),
+                    Child::Leaf { place, count } => {
+                        let first = ((place - first_leaf) / TRIANGLE_UNITS) as usize;
+                        let members = &triangles[first..first + count as usize];
+                        members.iter().map(bounds_of).fold(Aabb::EMPTY, Aabb::union)
+                    }
+                };
+                node.set_bounds(slot, &bounds);
+            }
+            nodes[place] = node;
         }
-        self.bounds = bounds[0];
+        self.bounds = around_children(&nodes[0]);
     }
 }
 
 const NODE_WORDS: usize = size_of::<Node>() / 4;
 
-/// The box of each slot that holds something.
-fn children_bounds(
-    node: &Node,
-    node_count: u32,
-    bounds: &[Aabb],
-    triangles: &[Triangle],
-) -> [Option<Aabb>; WIDTH] {
-    let first_leaf = (node.leaf_base - node_count * NODE_UNITS) / TRIANGLE_UNITS;
-    let mut inner = (node.child_base / NODE_UNITS) as usize..;
-    let mut children = [None; WIDTH];
-    for (slot, child) in children.iter_mut().enumerate() {
-        let meta = u32::from(node.meta[slot]);
-        if node.inner_mask & (1 << slot) != 0 {
-            *child = inner.next().map(|place| bounds[place]);
-        } else if meta != 0 {
-            let first = (first_leaf + (meta & 31)) as usize;
-            let members = &triangles[first..first + (meta >> 5).count_ones() as usize];
-            let around = members.iter().map(bounds_of).fold(Aabb::EMPTY, Aabb::union);
-            *child = Some(around);
-        }
-    }
-    children
-}
-
-/// New grid and planes; what the slots hold stays.
-fn refit_node(node: &mut Node, bounds: &Aabb, children: &[Option<Aabb>; WIDTH]) {
-    if bounds.is_empty() {
-        return;
-    }
-    let grid = start_node(bounds);
-    node.origin = grid.origin;
-    node.exponents = grid.exponents;
-    for (slot, child) in children.iter().enumerate() {
-        if let Some(child) = child {
-            set_child_bounds(node, slot, child);
-        }
-    }
+/// The box of all of a node's children.
+fn around_children(node: &Node) -> Aabb {
+    let holds_something = |slot: &usize| Child::of(node.children[*slot]) != Child::Nothing;
+    (0..WIDTH).filter(holds_something).fold(Aabb::EMPTY, |sum, slot| sum.union(node.bounds(slot)))
 }
 
 #[cfg(test)]

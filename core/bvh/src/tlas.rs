@@ -5,7 +5,7 @@ use crate::bounds::{Aabb, affine_parts};
 use crate::encode::encode;
 use crate::error::{BuildError, check_count};
 use crate::layout::{
-    FLAG_IDENTITY, INSTANCE_UNITS, InstanceRecord, LARGEST_COORDINATE, MAX_DEPTH_TLAS, Node,
+    FLAG_IDENTITY, INSTANCE_UNITS, InstanceRecord, LARGEST_COORDINATE, MOST_WAITING_TLAS, Node,
 };
 
 /// The 3x4 matrix that changes nothing.
@@ -61,12 +61,12 @@ impl Tlas {
 /// Builds a top level; the same input gives the same words.
 ///
 /// # Errors
-/// [`BuildError::TooMany`] for more than 2^27 instances.
+/// [`BuildError::TooMany`] for more than 2^25 instances.
 pub fn build_tlas(instances: &[Instance]) -> Result<Tlas, BuildError> {
     check_count(instances.len())?;
     let (records, boxes): (Vec<InstanceRecord>, Vec<Aabb>) = instances.iter().filter_map(place).unzip();
     let tree = build(&boxes, Split::SurfaceArea);
-    let mut wide = encode(&tree, &boxes, 1, MAX_DEPTH_TLAS);
+    let mut wide = encode(&tree, &boxes, 1, MOST_WAITING_TLAS);
     wide.place_leaves(INSTANCE_UNITS);
 
     let mut words: Vec<u32> = Vec::new();

@@ -3,8 +3,8 @@
 
 use crate::intersect::{RayShear, TriangleHit, intersect_sphere, intersect_triangle};
 use crate::layout::{
-    FLAG_ALPHA_TESTED, FLAG_IDENTITY, INSTANCE_UNITS, InstanceRecord, MAX_STEPS, NODE_UNITS, Node,
-    STACK_ENTRIES, Sphere, TRIANGLE_UNITS, Triangle, WIDTH, record,
+    Child, FLAG_ALPHA_TESTED, FLAG_IDENTITY, InstanceRecord, MAX_STEPS, Node, STACK_ENTRIES, Sphere,
+    TRIANGLE_UNITS, Triangle, WIDTH, record,
 };
 use glam::Vec3;
 
@@ -62,25 +62,33 @@ pub struct Scene<'a> {
 struct LocalRay {
     origin: Vec3,
     inverse: Vec3,
+    /// Less the origin's distances from 0, those a little less for planes that are met first, and a little more for the last.
+    start: [Vec3; 2],
+    /// Which planes along x, y, z are met first: 0 the least ones.
+    first: [usize; 3],
     shear: RayShear,
-    /// 7 less the octant: bit 2, 1, 0 set where x, y, z of the direction are not negative.
-    order: u32,
 }
 
 /// Components of a direction nearer to 0 than this count as this.
 const LEAST_COMPONENT: f32 = 8.271_806e-25; // 2^-80
-/// Rounding of a slab's distances, relative to their terms; 8 half units in the last place.
-const SLAB_ERROR: f32 = 4.768_371_6e-7; // 2^-21
+/// Rounding of the origin's part of a plane's distance, relative.
+const ORIGIN_ERROR: f32 = 2.384_185_8e-7; // 2^-22
+/// What planes are moved outwards by, so that a ray along one at 0 stays within it (2^-50).
+const PLANE_ERROR: f32 = 8.881_784e-16;
+/// Rounding of distances, in units in the last place.
+const DISTANCE_UNITS: i32 = 4;
 
 impl LocalRay {
     fn new(origin: Vec3, direction: Vec3) -> Self {
         let inverse = inverse_of(direction);
-        let bit = |d: f32, value: u32| if d.is_sign_negative() { 0 } else { value };
+        let start = -(origin * inverse);
+        let error = inverse.abs().mul_add(Vec3::splat(PLANE_ERROR), ORIGIN_ERROR * start.abs());
         Self {
             origin,
             inverse,
+            start: [start - error, start + error],
+            first: inverse.to_array().map(|inverse| usize::from(inverse.is_sign_negative())),
             shear: RayShear::new(direction),
-            order: bit(inverse.x, 4) | bit(inverse.y, 2) | bit(inverse.z, 1),
         }
     }
 
@@ -112,72 +120,30 @@ pub fn in_object(origin: Vec3, direction: Vec3, world_to_object: &[[f32; 4]; 3])
     (Vec3::from(linear(origin)) + offset, Vec3::from(linear(direction)))
 }
 
-/// Children or leaf records still to visit. In `mask` bits 24..32 are inner children, nearest
-/// first from bit 31, with the inner mask of their node in bits 0..8; or bits 0..24 are leaf records.
-#[derive(Clone, Copy, Default)]
-struct Group {
-    base: u32,
-    mask: u32,
+/// A distance as an integer that sorts like it, down to 0.
+fn sortable(distance: f32) -> i32 {
+    distance.to_bits() as i32
 }
 
-const ROOT: Group = Group { base: 0, mask: 0x8000_0000 };
+/// Of a child that the ray does not meet.
+const MISSED: i32 = i32::MAX;
 
-impl Group {
-    fn has_nodes(self) -> bool {
-        self.mask > 0x00ff_ffff
-    }
-
-    /// Takes the nearest inner child; returns where it lies.
-    fn take_node(&mut self, order: u32) -> u32 {
-        let bit = 31 - self.mask.leading_zeros();
-        let inner_mask = self.mask & 0xff;
-        self.mask &= !(1 << bit);
-        let slot = (bit - 24) ^ order;
-        let before = (inner_mask & !(u32::MAX << slot)).count_ones();
-        self.base.wrapping_add(before * NODE_UNITS)
-    }
-
-    /// Takes a leaf record; returns where it lies.
-    fn take_leaf(&mut self, units: u32) -> u32 {
-        let bit = 31 - self.mask.leading_zeros();
-        self.mask &= !(1 << bit);
-        self.base.wrapping_add(bit * units)
-    }
-}
-
-/// The child slots of `node` whose boxes the ray meets in `t_min..=t_max`: bits as in [`Group`],
-/// without the inner mask.
-fn meet_children(node: &Node, ray: &LocalRay, t_min: f32, t_max: f32) -> u32 {
-    let grid = Vec3::from(node.origin.map(f32::from_bits));
-    let spacing = Vec3::from(node.exponents.map(|e| f32::from_bits(u32::from(e) << 23)));
-    let scale = spacing * ray.inverse;
-    let start = (grid - ray.origin) * ray.inverse;
-    let error = SLAB_ERROR * (start.abs() + 256.0 * scale.abs());
-    let (start_near, start_far) = (start - error, start + error);
-    let mut met = 0;
-    for slot in 0..WIDTH {
-        let mut near = t_min;
-        let mut far = t_max;
+/// How far the ray goes until it is in the box of each child, in t_min..=t_max, as integers that sort like distances with the
+/// child's slot in their last bits; `MISSED` where it does not meet it.
+fn enter_children(node: &Node, ray: &LocalRay, t_min: f32, t_max: f32) -> [i32; WIDTH] {
+    std::array::from_fn(|slot| {
+        let mut near = sortable(t_min);
+        let mut far = sortable(t_max);
         for axis in 0..3 {
-            let (low, high) = (node.low[axis][slot], node.high[axis][slot]);
-            let positive = ray.order & (4 >> axis) != 0;
-            let (first, last) = if positive { (low, high) } else { (high, low) };
-            near = near.max(f32::from(first).mul_add(scale[axis], start_near[axis]));
-            far = far.min(f32::from(last).mul_add(scale[axis], start_far[axis]));
+            let first = ray.first[axis];
+            let planes = &node.planes[axis];
+            let [enters, leaves] = [(first, 0), (1 - first, 1)]
+                .map(|(plane, end)| planes[plane][slot].mul_add(ray.inverse[axis], ray.start[end][axis]));
+            near = near.max(sortable(enters));
+            far = far.min(sortable(leaves));
         }
-        if near <= far {
-            met |= slot_bits(node.meta[slot], ray.order);
-        }
-    }
-    met
-}
-
-/// The bits of a slot: an inner child's by its place along the ray, a leaf's by its records.
-fn slot_bits(meta: u8, order: u32) -> u32 {
-    let meta = u32::from(meta);
-    let inner = meta & 0x18 == 0x18;
-    let place = (meta ^ if inner { order } else { 0 }) & 31;
-    (meta >> 5) << place
+        if near <= far.wrapping_add(DISTANCE_UNITS) { near & !3 | slot as i32 } else { MISSED }
+    })
 }
 
 /// The state of a traversal.
@@ -186,9 +152,9 @@ struct Walk<'a> {
     ray: LocalRay,
     /// The id, flags of the instance the ray is in, and the stack's height where it entered.
     instance: Option<(u32, u32, usize)>,
-    stack: Vec<Group>,
-    nodes: Group,
-    leaves: Group,
+    stack: Vec<u32>,
+    /// What comes next.
+    reference: u32,
     hit: Option<Hit>,
     t_max: f32,
 }
@@ -202,24 +168,28 @@ pub fn trace(scene: &Scene, ray: &Ray, query: Query, accept: Accept) -> Option<H
         ray: LocalRay::new(ray.origin, ray.direction),
         instance: None,
         stack: Vec::with_capacity(STACK_ENTRIES),
-        nodes: ROOT,
-        leaves: Group::default(),
+        reference: Child::Inner(0).reference(),
         hit: None,
         t_max: ray.t_max,
     };
     for _ in 0..MAX_STEPS {
-        walk.visit_node(ray.t_min);
-        while walk.leaves.mask != 0 {
+        if let Child::Inner(place) = Child::of(walk.reference) {
+            walk.visit_node(place, ray.t_min, query.any_hit);
+        }
+        if let Child::Leaf { place, count } = Child::of(walk.reference) {
             if let Some((instance, flags, _)) = walk.instance {
-                walk.meet_triangle(ray, instance, flags, accept);
+                let next = Child::Leaf { place: place + TRIANGLE_UNITS, count: count.max(2) - 1 };
+                walk.reference = if count > 1 { next } else { Child::Nothing }.reference();
+                walk.meet_triangle(place, ray, instance, flags, accept);
                 if query.any_hit && walk.hit.is_some() {
                     return walk.hit;
                 }
             } else {
-                walk.enter_instance(scene, ray, query.mask);
+                walk.reference = Child::Nothing.reference();
+                walk.enter_instance(place, scene, ray, query.mask);
             }
         }
-        if !walk.nodes.has_nodes() && !walk.pop(scene, ray) {
+        if walk.reference == Child::Nothing.reference() && !walk.pop(scene, ray) {
             break;
         }
     }
@@ -227,33 +197,26 @@ pub fn trace(scene: &Scene, ray: &Ray, query: Query, accept: Accept) -> Option<H
 }
 
 impl<'a> Walk<'a> {
-    fn push(&mut self, group: Group) {
-        if self.stack.len() < STACK_ENTRIES {
-            self.stack.push(group);
-        }
-    }
-
-    /// Visits the nearest node of the group, or takes a popped group of leaves.
-    fn visit_node(&mut self, t_min: f32) {
-        if !self.nodes.has_nodes() {
-            self.leaves = std::mem::take(&mut self.nodes);
-            return;
-        }
-        let place = self.nodes.take_node(self.ray.order);
-        if self.nodes.has_nodes() {
-            self.push(self.nodes);
-        }
+    /// Goes to the nearest of a node's children that the ray meets; the others wait, the farthest below. Where any hit
+    /// will do, to the first.
+    fn visit_node(&mut self, place: u32, t_min: f32, any_hit: bool) {
+        self.reference = Child::Nothing.reference();
         let Some(node) = record::<Node>(self.words, place) else {
-            self.nodes = Group::default();
             return;
         };
-        let met = meet_children(&node, &self.ray, t_min, self.t_max);
-        self.nodes = Group { base: node.child_base, mask: met & 0xff00_0000 | u32::from(node.inner_mask) };
-        self.leaves = Group { base: node.leaf_base, mask: met & 0x00ff_ffff };
+        let mut met = enter_children(&node, &self.ray, t_min, self.t_max);
+        if !any_hit {
+            met.sort_unstable();
+        }
+        for met in met.into_iter().rev().filter(|&met| met != MISSED) {
+            if self.reference != Child::Nothing.reference() && self.stack.len() < STACK_ENTRIES {
+                self.stack.push(self.reference);
+            }
+            self.reference = node.children[(met & 3) as usize];
+        }
     }
 
-    fn meet_triangle(&mut self, ray: &Ray, instance: u32, flags: u32, accept: Accept) {
-        let place = self.leaves.take_leaf(TRIANGLE_UNITS);
+    fn meet_triangle(&mut self, place: u32, ray: &Ray, instance: u32, flags: u32, accept: Accept) {
         let Some(triangle) = record::<Triangle>(self.words, place) else {
             return;
         };
@@ -278,8 +241,7 @@ impl<'a> Walk<'a> {
         });
     }
 
-    fn enter_instance(&mut self, scene: &Scene<'a>, ray: &Ray, mask: u32) {
-        let place = self.leaves.take_leaf(INSTANCE_UNITS);
+    fn enter_instance(&mut self, place: u32, scene: &Scene<'a>, ray: &Ray, mask: u32) {
         let Some(instance) = record::<InstanceRecord>(self.words, place) else {
             return;
         };
@@ -289,25 +251,18 @@ impl<'a> Walk<'a> {
         if instance.mask() & mask == 0 {
             return;
         }
-        if self.nodes.has_nodes() {
-            self.push(self.nodes);
-        }
-        if self.leaves.mask != 0 {
-            self.push(self.leaves);
-        }
         if instance.flags() & FLAG_IDENTITY == 0 {
             self.ray = LocalRay::in_object(ray, &instance.world_to_object);
         }
         self.words = words;
         self.instance = Some((instance.id, instance.flags(), self.stack.len()));
-        self.nodes = ROOT;
-        self.leaves = Group::default();
+        self.reference = Child::Inner(0).reference();
     }
 
-    /// The next group from the stack, leaving the instance where it has none; false at the end.
+    /// The next child that waits, leaving the instance where none does in it; false at the end.
     fn pop(&mut self, scene: &Scene<'a>, ray: &Ray) -> bool {
         let outside = self.instance.is_some_and(|(_, _, floor)| self.stack.len() <= floor);
-        let Some(group) = self.stack.pop() else {
+        let Some(reference) = self.stack.pop() else {
             return false;
         };
         if outside {
@@ -315,7 +270,7 @@ impl<'a> Walk<'a> {
             self.words = scene.tlas;
             self.ray = LocalRay::new(ray.origin, ray.direction);
         }
-        self.nodes = group;
+        self.reference = reference;
         true
     }
 }

@@ -231,7 +231,7 @@ shared_struct! {
         pub ambient: [f32; 3],
         /// What is painted: a `PAINT_` constant.
         pub paint: u32,
-        /// Height of a pixel at depth 1.
+        /// Height of a pixel at depth 1, or anywhere where pixels look side by side.
         pub pixel_spread: f32,
         /// 1 if something moves that could darken baked surfaces.
         pub has_movers: u32,
@@ -239,9 +239,10 @@ shared_struct! {
         pub sum_count: u32,
         /// How much of the way to its new value exposure goes: 1 at once.
         pub exposure_rate: f32,
-        /// A position's product with this is its depth: the distance along the view.
+        /// A position's product with this is its depth: the distance along the view. Where pixels look side by side, the unit
+        /// vector along which they do.
         pub forward: [f32; 3],
-        /// Where the upper left pixel's centre is at depth 1, and how far it is from there to the next pixel to the
+        /// Where the upper left pixel's centre is at depth 1 (on the near plane where pixels look side by side), and how far it is from there to the next pixel to the
         /// right and to the next one below.
         pub pixel_origin: [f32; 3],
         pub pixel_right: [f32; 3],
@@ -443,6 +444,8 @@ pub const TRACE_UNIFORM_LIGHTS: u32 = 2;
 pub const TRACE_UNLIMITED: u32 = 4;
 /// Likewise: paths end at random by what they carry.
 pub const TRACE_ROULETTE: u32 = 8;
+/// The projection is orthographic: pixels look side by side.
+pub const TRACE_PARALLEL: u32 = 16;
 
 /// Instances that never move.
 pub const MASK_STATIC: u32 = 1;

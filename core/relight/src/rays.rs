@@ -1,11 +1,11 @@
 //! Fast rays through a bottom level of `afterglow-bvh`.
 //!
 //! That crate's own traversal is the twin of a shader, operation by operation. Here a form factor is the mean of many
-//! rays, so a hit or miss on the very edge of a triangle does not matter, and speed does: boxes are tested eight at once
+//! rays, so a hit or miss on the very edge of a triangle does not matter, and speed does: boxes are tested four at once
 //! without fused operations, triangles by Moller and Trumbore's test (Fast, Minimum Storage Ray/Triangle Intersection, 1997).
 
 use afterglow_bvh::Blas;
-use afterglow_bvh::layout::{MAX_DEPTH_BLAS, NODE_UNITS, Node, TRIANGLE_UNITS, WIDTH};
+use afterglow_bvh::layout::{Child, MOST_WAITING_BLAS, NODE_UNITS, Node, TRIANGLE_UNITS, WIDTH};
 use glam::Vec3;
 
 /// Components of a direction nearer to 0 than this count as this.
@@ -49,8 +49,7 @@ impl Shapes {
         let inverse = Vec3::from(ray.direction.to_array().map(away)).recip();
         let mut hit: Option<(f32, u32)> = None;
         let mut t_max = ray.t_max;
-        // Each level leaves at most seven others behind.
-        let mut stack = [(0.0f32, 0u32); 7 * MAX_DEPTH_BLAS as usize + WIDTH];
+        let mut stack = [(0.0f32, 0u32); MOST_WAITING_BLAS as usize + WIDTH];
         let mut height = 1;
         while height > 0 {
             height -= 1;
@@ -61,20 +60,21 @@ impl Shapes {
             let entries = enter(node, ray.origin, inverse, t_max);
             let floor = height;
             for (slot, &entry) in entries.iter().enumerate() {
-                let meta = node.meta[slot];
-                if meta == 0 || entry == f32::INFINITY {
+                if entry == f32::INFINITY {
                     continue;
                 }
-                if meta & 0x18 == 0x18 {
-                    let before = (node.inner_mask & ((1 << slot) - 1)).count_ones();
-                    let child = node.child_base / NODE_UNITS + before;
-                    if height < stack.len() {
-                        stack[height] = (entry, child);
-                        height += 1;
+                let leaf = match Child::of(node.children[slot]) {
+                    Child::Nothing => continue,
+                    Child::Inner(place) => {
+                        if height < stack.len() {
+                            stack[height] = (entry, place / NODE_UNITS);
+                            height += 1;
+                        }
+                        continue;
                     }
-                    continue;
-                }
-                for shape in self.leaf(node, meta) {
+                    Child::Leaf { place, count } => self.leaf(place, count),
+                };
+                for shape in leaf {
                     if let Some(t) = shape.meet(ray, t_max) {
                         (hit, t_max) = (Some((t, shape.primitive)), t);
                         if any {
@@ -89,33 +89,30 @@ impl Shapes {
         hit
     }
 
-    /// The triangles of a leaf slot: as many as there are bits above its place.
-    fn leaf(&self, node: &Node, meta: u8) -> &[Shape] {
+    /// The triangles of a leaf.
+    fn leaf(&self, place: u32, count: u32) -> &[Shape] {
         let nodes = self.nodes.len() as u32 * NODE_UNITS;
-        let first = node.leaf_base.saturating_sub(nodes) / TRIANGLE_UNITS + u32::from(meta & 31);
-        let count = (meta >> 5).count_ones();
+        let first = place.saturating_sub(nodes) / TRIANGLE_UNITS;
         self.triangles.get(first as usize..(first + count) as usize).unwrap_or(&[])
     }
 }
 
 /// Where a ray enters each child's box, infinite where it does not.
 fn enter(node: &Node, origin: Vec3, inverse: Vec3, t_max: f32) -> [f32; WIDTH] {
-    let grid = Vec3::from(node.origin.map(f32::from_bits));
-    let spacing = Vec3::from(node.exponents.map(|e| f32::from_bits(u32::from(e) << 23)));
-    let (scale, start) = (spacing * inverse, (grid - origin) * inverse);
     let (mut near, mut far) = ([0.0f32; WIDTH], [t_max; WIDTH]);
     for axis in 0..3 {
-        let (low, high) = (&node.low[axis], &node.high[axis]);
-        let (scale, start) = (scale[axis], start[axis]);
-        let slack = SLACK * (start.abs() + 256.0 * scale.abs());
+        let [low, high] = &node.planes[axis];
+        let (origin, inverse) = (origin[axis], inverse[axis]);
         for slot in 0..WIDTH {
-            let a = f32::from(low[slot]) * scale + start;
-            let b = f32::from(high[slot]) * scale + start;
-            near[slot] = near[slot].max(a.min(b) - slack);
-            far[slot] = far[slot].min(a.max(b) + slack);
+            let a = (low[slot] - origin) * inverse;
+            let b = (high[slot] - origin) * inverse;
+            near[slot] = near[slot].max(a.min(b));
+            far[slot] = far[slot].min(a.max(b));
         }
     }
-    std::array::from_fn(|slot| if near[slot] <= far[slot] { near[slot] } else { f32::INFINITY })
+    std::array::from_fn(
+        |slot| if near[slot] <= far[slot] * (1.0 + SLACK) { near[slot] } else { f32::INFINITY },
+    )
 }
 
 impl Shape {

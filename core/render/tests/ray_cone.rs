@@ -37,9 +37,11 @@ impl RayCone {
         Self { spread: self.spread.hypot(spread).min(MOST_SPREAD), ..self }
     }
 
+    /// `cone_texels` of `cones_along`.
     fn texels(self, cosine: f32, area_world: f32, area_coordinates: f32) -> f32 {
         let width = self.width / cosine.abs().max(LEAST_COSINE);
-        0.5 * (area_world.max(1e-20) / area_coordinates.max(1e-20)).log2() - width.max(1e-20).log2()
+        let cones = 0.5 * area_world.max(1e-20).log2() - width.max(1e-20).log2();
+        cones - 0.5 * area_coordinates.max(1e-20).log2()
     }
 }
 

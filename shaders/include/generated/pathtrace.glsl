@@ -249,6 +249,7 @@ struct ViewPush { // 32 bytes
 #define NO_LIGHT 4294967295u
 #define TRACE_INDEPENDENT 1u
 #define TRACE_ROULETTE 8u
+#define TRACE_PARALLEL 16u
 #define TRACE_UNIFORM_LIGHTS 2u
 #define TRACE_UNLIMITED 4u
 

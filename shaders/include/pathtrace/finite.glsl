@@ -3,8 +3,8 @@
 #ifndef AFTERGLOW_PATHTRACE_FINITE_GLSL
 #define AFTERGLOW_PATHTRACE_FINITE_GLSL
 
-// Most that a channel of radiance may be, so that sums of squares stay finite.
-#define LARGEST_RADIANCE 1e18
+// Most that a channel of radiance may be, so that sums of squares of 2^30 samples stay finite.
+#define LARGEST_RADIANCE 1e15
 
 struct FiniteRadiance {
     vec3 value;

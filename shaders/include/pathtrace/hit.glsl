@@ -1,30 +1,33 @@
 // The colour that the program gives to what a ray meets, found from the same state that the draw is
-// rasterized with. A ray stands for many: texels come from coarse levels, and coordinates as they are given.
+// rasterized with. Texels are as wide as the ray's cone, and coordinates as they are given.
 
 #ifndef AFTERGLOW_PATHTRACE_HIT_GLSL
 #define AFTERGLOW_PATHTRACE_HIT_GLSL
 
 #include "../bindless.glsl"
 #include "../fixed/texenv.glsl"
+#include "ray_cone.glsl"
 #include "vertices.glsl"
 
 // Of a list of layers no more than these are looked at.
 #define MOST_LAYERS 6u
-// Texels along a side of the level that rays read, as a power of two.
-#define RAY_TEXELS 5.0
+// Cones along any triangle (`cones_along`), as a power of two, so that the finest level is read.
+#define FINEST_CONES 64.0
 
 UnitState unit_state(DrawReference draw, uint unit) {
     uint first = UNIT_FIRST_WORD(unit);
     return decode_unit(uint[UNIT_WORDS](draw.it.state[first], draw.it.state[first + 1u], draw.it.state[first + 2u]));
 }
 
-// The texel of a unit with so many texels along a side (as a power of two); white if it is not two-dimensional.
-vec4 unit_texel(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, UnitState state, uint unit, float texels) {
+// The texel of a unit that is as wide as a cone of which so many lie along the triangle (`cones_along`); white if it is
+// not two-dimensional.
+vec4 unit_texel(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, UnitState state, uint unit, float cones) {
     if (state.target != TARGET_D2 || state.base_format == BASE_FORMAT_DEPTH) {
         return vec4(1.0);
     }
-    vec4 given = CurrentTable(FrameTable(view.frame).entries[0].current).entries[draw.it.current].texture[unit].coefficients;
-    vec4 coordinates = attribute_at(draw, triangle, weights, SLOT_TEXTURE0 + unit, given);
+    vec4 at[3] = corner_coordinates(view, draw, triangle, unit);
+    vec4 coordinates = at[0] * weights.x + at[1] * weights.y + at[2] * weights.z;
+    float texels = cone_texels(cones, coordinates_area(at[0].xy / at[0].w, at[1].xy / at[1].w, at[2].xy / at[2].w));
     uint image = draw.it.textures[unit] & 0xfffffu;
     uint filtering = draw.it.textures[unit] >> 20;
     ivec2 size = textureSize(sampler2D(textures_2d[nonuniformEXT(image)], samplers[nonuniformEXT(filtering)]), 0);
@@ -35,7 +38,8 @@ vec4 unit_texel(ViewRecord view, DrawReference draw, uint triangle, vec3 weights
 
 // The colour after texturing of `primary`, in sRGB as the program has it. A unit whose texture is baked light is passed
 // by, its texel is `light`.
-vec4 textured_color(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, vec4 primary, inout vec3 light) {
+vec4 textured_color(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, float cones, vec4 primary,
+    inout vec3 light) {
     vec4 texels[TEXTURE_UNITS] = vec4[TEXTURE_UNITS](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     EnvironmentTable environments = EnvironmentTable(FrameTable(view.frame).entries[0].environments);
     vec4 color = primary;
@@ -48,7 +52,7 @@ vec4 textured_color(ViewRecord view, DrawReference draw, uint triangle, vec3 wei
         }
         bool is_light = draw.it.bake == unit + 1u;
         if (i < TEXTURE_UNITS) {
-            texels[unit] = unit_texel(view, draw, triangle, weights, state, unit, RAY_TEXELS);
+            texels[unit] = unit_texel(view, draw, triangle, weights, state, unit, cones);
         } else if (is_light) {
             float scale = state.env_mode == ENV_MODE_COMBINE ? float(1u << state.scale_rgb) : 1.0;
             light *= texels[unit].rgb * scale;
@@ -92,7 +96,7 @@ vec4 blended(uint word, vec4 source, vec4 destination) {
 
 // The program's colour of a surface without lighting, all its layers together, in sRGB. Materials are not in it. Baked
 // light that traced light takes the place of is not in it either, but in `light`: white where there is none.
-vec3 unlit_color(ViewRecord view, uint draw, uint triangle, vec3 weights, out vec3 light, out bool has_light) {
+vec3 unlit_color(ViewRecord view, uint draw, uint triangle, vec3 weights, float cones, out vec3 light, out bool has_light) {
     vec4 color = vec4(1.0);
     light = vec3(1.0);
     has_light = false;
@@ -109,7 +113,7 @@ vec3 unlit_color(ViewRecord view, uint draw, uint triangle, vec3 weights, out ve
             light *= primary.rgb;
             primary.rgb = vec3(1.0);
         }
-        vec4 own = textured_color(view, layer, triangle, weights, primary, light);
+        vec4 own = textured_color(view, layer, triangle, weights, cones, primary, light);
         if (bake == BAKE_LAYER || bake == BAKE_DOUBLED_LAYER) {
             light *= own.rgb * (bake == BAKE_LAYER ? 1.0 : 2.0);
         } else {
@@ -124,14 +128,15 @@ vec3 unlit_color(ViewRecord view, uint draw, uint triangle, vec3 weights, out ve
 }
 
 // Whether the point of a triangle that a ray meets is there, and no hole by alpha test or blending. Only unit 0's
-// texel counts.
+// texel counts, of the finest level whatever the ray stands for: many rays find the share of holes, which a threshold on the
+// mean of texels does not tell.
 bool is_solid(ViewRecord view, uint draw, uint triangle, vec3 weights) {
     DrawReference surface = surface_draw(view, draw);
     UnitState unit = unit_state(surface, 0u);
     if (unit.target == 0u || !has_alpha(unit.base_format)) {
         return true;
     }
-    float alpha = unit_texel(view, surface, triangle, weights, unit, 0u, 16.0).a;
+    float alpha = unit_texel(view, surface, triangle, weights, unit, 0u, FINEST_CONES).a;
     uint function = global_state(surface).alpha_func;
     if (function == COMPARE_ALWAYS) {
         return alpha >= 0.5;

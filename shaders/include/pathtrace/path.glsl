@@ -56,6 +56,7 @@ Channels no_channels() {
 struct Path {
     SurfacePoint at;
     vec3 to_viewer;
+    RayCone cone;      // of the ray that has come here, where it ends
     uint mask;         // of instances that rays from here meet
     vec3 carried;      // what of the light found here reaches the first surface
     uint surfaces;     // before this one
@@ -63,6 +64,12 @@ struct Path {
     bool is_specular;  // it left the first surface by its specular lobe
     bool is_over;
 };
+
+// Samples that share what a surface's next ray stands for. Where they are independent, pictures are to have no bias: there
+// they are taken to be so many that their cones are narrower than those of pixels.
+float cone_samples(ViewRecord view) {
+    return (view.traits & TRACE_INDEPENDENT) != 0u ? 16777216.0 : float(view.samples);
+}
 
 // How the numbers of a sample are made.
 struct PathRandom {
@@ -77,8 +84,9 @@ vec4 path_numbers(ViewRecord view, PathRandom random, uint dimension) {
     return vec4(random_2d(random.random, 2u * dimension), random_2d(random.random, 2u * dimension + 1u));
 }
 
-Path path_from(SurfacePoint at, vec3 to_viewer, uint mask) {
-    return Path(at, to_viewer, mask, vec3(1.0), 0u, 0u, false, at.is_end);
+// A path of which `at` is the first surface, met by a ray with this cone.
+Path path_from(SurfacePoint at, vec3 to_viewer, uint mask, RayCone cone) {
+    return Path(at, to_viewer, cone, mask, vec3(1.0), 0u, 0u, false, at.is_end);
 }
 
 uint placed_count(ViewRecord view) {
@@ -342,7 +350,8 @@ void go_on(ViewRecord view, inout Path path, RayPlan plan, bool met, Hit hit, in
         }
         return;
     }
-    SurfacePoint point = surface_point(view, hit, plan.direction);
+    RayCone cone = travelled(scattered(path.cone, plan.density, cone_samples(view)), hit.t);
+    SurfacePoint point = surface_point(view, hit, plan.direction, cone);
     float share = point.light == NO_LIGHT ? 1.0 : found_share(view, path, plan, point.light, hit.t);
     add_found(path, plan, point.emission * share, point.light != NO_LIGHT, channels);
     bool is_last = path.surfaces + 1u >= view.most_surfaces;
@@ -353,6 +362,7 @@ void go_on(ViewRecord view, inout Path path, RayPlan plan, bool met, Hit hit, in
     path.is_specular = is_first ? plan.is_specular : path.is_specular;
     path.at = point;
     path.to_viewer = -plan.direction;
+    path.cone = cone;
     path.mask = MASK_STATIC | MASK_MOVING;
     path.carried = plan.diffuse;
     path.surfaces += 1u;

@@ -6,6 +6,7 @@
 #include "accept.glsl"
 #include "lights.glsl"
 #include "materials.glsl"
+#include "ray_cone.glsl"
 #include "said.glsl"
 #include "surface.glsl"
 
@@ -33,10 +34,11 @@ void plain_surface(DrawReference draw, bool is_front, inout SurfacePoint point) 
 }
 
 // A surface as the program has it. Where baked light is known, that is what is reflected: it has come from everywhere.
-void program_surface(ViewRecord view, DrawReference draw, uint draw_index, uint triangle, vec3 weights, inout SurfacePoint point) {
+void program_surface(ViewRecord view, DrawReference draw, uint draw_index, uint triangle, vec3 weights, float cones,
+    inout SurfacePoint point) {
     vec3 baked;
     bool is_baked;
-    vec3 color = unlit_color(view, draw_index, triangle, weights, baked, is_baked);
+    vec3 color = unlit_color(view, draw_index, triangle, weights, cones, baked, is_baked);
     vec4 lobe = vec4(0.0);
     GlobalState state = global_state(draw);
     if (state.lighting) {
@@ -55,17 +57,19 @@ void program_surface(ViewRecord view, DrawReference draw, uint draw_index, uint 
         point.emission += is_relit(view) && draw.it.kind == SURFACE_BAKED ? vec3(0.0) : color;
         point.is_end = true;
     }
-    point.emission += said_emission(view, draw, triangle, weights, RAY_TEXELS);
+    bool is_said = draw.it.roughness >= 0.0 || draw.it.emission != vec3(0.0);
+    float texels = is_said ? cone_texels(cones, map_area(view, draw, triangle)) : 0.0;
+    point.emission += said_emission(view, draw, triangle, weights, texels);
     vec3 albedo = min(color, MOST_ALBEDO);
     point.bsdf = Bsdf(albedo, lobe.rgb, alpha_of(lobe.w));
     if (draw.it.roughness >= 0.0) {
-        vec2 varied = said_roughness_metallic(draw, map_coordinates(view, draw, triangle, weights), RAY_TEXELS);
+        vec2 varied = said_roughness_metallic(draw, map_coordinates(view, draw, triangle, weights), texels);
         point.bsdf = rough_bsdf(albedo, varied.x, varied.y);
     }
 }
 
-// What a ray along `direction` has met.
-SurfacePoint surface_point(ViewRecord view, Hit hit, vec3 direction) {
+// What a ray along `direction` has met, of length 1; `cone` is the ray's where it ends.
+SurfacePoint surface_point(ViewRecord view, Hit hit, vec3 direction, RayCone cone) {
     uint triangle;
     uint draw_index = member_of(view, hit.instance, hit.primitive, triangle);
     if ((draw_index & MEMBER_OF_LIGHTS) != 0u) {
@@ -78,7 +82,8 @@ SurfacePoint surface_point(ViewRecord view, Hit hit, vec3 direction) {
     vec3 first = world_position(draw, positions[0]);
     vec3 edge_1 = world_position(draw, positions[1]) - first;
     vec3 edge_2 = world_position(draw, positions[2]) - first;
-    vec3 normal = unit_vector(cross(edge_1, edge_2));
+    vec3 across = cross(edge_1, edge_2);
+    vec3 normal = unit_vector(across);
     bool is_towards = dot(normal, direction) <= 0.0;
     // A matrix that mirrors turns corners the other way about, and no front inside.
     bool is_front = is_towards != mirrors(draw.it.object_to_world);
@@ -93,7 +98,8 @@ SurfacePoint surface_point(ViewRecord view, Hit hit, vec3 direction) {
     if (draw.it.base_color.x >= 0.0) {
         plain_surface(draw, is_front, point);
     } else {
-        program_surface(view, draw, draw_index, triangle, weights, point);
+        float cones = cones_along(cone, dot(normal, direction), length(across));
+        program_surface(view, draw, draw_index, triangle, weights, cones, point);
     }
     return point;
 }

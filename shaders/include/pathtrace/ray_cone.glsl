@@ -36,12 +36,24 @@ RayCone scattered(RayCone cone, float pdf, float samples) {
     return RayCone(cone.width, min(sqrt(cone.spread * cone.spread + spread * spread), MOST_CONE_SPREAD));
 }
 
-// Texels, as a power of two, along a unit of texture coordinates so that one is as wide as the cone where a triangle is
-// met: `unit_texel` and `map_texel` take it in place of RAY_TEXELS. `cosine` is between ray and normal; twice the
-// triangle's areas are in the world's units and in those of the coordinates.
-float cone_texels(RayCone cone, float cosine, float area_world, float area_coordinates) {
+// How many cones, as a power of two, lie side by side along the root of twice the area of a triangle that is met. `cosine`
+// is between ray and normal; the area is in the world's units.
+float cones_along(RayCone cone, float cosine, float area_world) {
     float width = cone.width / max(abs(cosine), LEAST_CONE_COSINE);
-    return 0.5 * log2(max(area_world, 1e-20) / max(area_coordinates, 1e-20)) - log2(max(width, 1e-20));
+    return 0.5 * log2(max(area_world, 1e-20)) - log2(max(width, 1e-20));
+}
+
+// Texels, as a power of two, along a unit of texture coordinates so that one is as wide as the cone: by twice the
+// triangle's area in those coordinates.
+float cone_texels(float cones, float area_coordinates) {
+    return cones - 0.5 * log2(max(area_coordinates, 1e-20));
+}
+
+// Twice a triangle's area by its corners' coordinates.
+float coordinates_area(vec2 a, vec2 b, vec2 c) {
+    vec2 edge_1 = b - a;
+    vec2 edge_2 = c - a;
+    return abs(edge_1.x * edge_2.y - edge_1.y * edge_2.x);
 }
 
 #endif

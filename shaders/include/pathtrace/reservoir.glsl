@@ -6,6 +6,7 @@
 #ifndef AFTERGLOW_PATHTRACE_RESERVOIR_GLSL
 #define AFTERGLOW_PATHTRACE_RESERVOIR_GLSL
 
+#include "eye.glsl"
 #include "path.glsl"
 
 // Neighbours that are asked for theirs.
@@ -33,7 +34,7 @@ SurfacePoint seen_point(SurfaceTexel surface) {
 // What a light's point brings to a surface that is seen along `to_viewer`.
 float brings_to(ViewRecord view, SurfacePoint at, vec3 to_viewer, ReservoirTexel kept) {
     LightSample to = light_sample(light_source(view, kept.light), at.start, unpackUnorm2x16(kept.point));
-    return brings(path_from(at, to_viewer, 0u), to);
+    return brings(path_from(at, to_viewer, 0u, camera_cone(0.0)), to);
 }
 
 // A choice among candidates that are added one by one.
@@ -140,7 +141,7 @@ ReservoirTexel chosen_over_time(ViewRecord view, Path path, PathRandom random, u
     uint index = before.y * view.width + before.x;
     SurfaceTexel surface = SurfaceTexels(view.surfaces_before).entries[index];
     SurfacePoint other = seen_point(surface);
-    vec3 other_viewer = unit_vector(-other.start);
+    vec3 other_viewer = to_eye(view, other.start);
     other.start += view.origin_before;
     if (!is_alike(path.at, other.start, other.normal, kind, surface_kind(surface))) {
         return own;
@@ -177,7 +178,7 @@ Asked chosen_among_neighbours(ViewRecord view, Path path, PathRandom random, uin
         pairs += 1.0;
         float own_count = own.count / float(NEIGHBOURS);
         if (own.weight > 0.0) {
-            float there = brings_to(view, other, unit_vector(-other.start), own);
+            float there = brings_to(view, other, to_eye(view, other.start), own);
             own_share += own_count * own.brings / (own_count * own.brings + theirs.count * there);
         }
         if (is_sound(view, theirs)) {

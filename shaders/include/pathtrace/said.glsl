@@ -6,6 +6,7 @@
 
 #include "../bindless.glsl"
 #include "color.glsl"
+#include "ray_cone.glsl"
 #include "vertices.glsl"
 
 vec2 map_coordinates(ViewRecord view, DrawReference draw, uint triangle, vec3 weights) {
@@ -13,6 +14,12 @@ vec2 map_coordinates(ViewRecord view, DrawReference draw, uint triangle, vec3 we
     vec4 given = CurrentTable(FrameTable(view.frame).entries[0].current).entries[draw.it.current].texture[unit].coefficients;
     vec4 coordinates = attribute_at(draw, triangle, weights, SLOT_TEXTURE0 + unit, given);
     return coordinates.xy / coordinates.w;
+}
+
+// Twice a triangle's area in the coordinates of its maps.
+float map_area(ViewRecord view, DrawReference draw, uint triangle) {
+    vec4 at[3] = corner_coordinates(view, draw, triangle, maps_unit(draw.it.maps));
+    return coordinates_area(at[0].xy / at[0].w, at[1].xy / at[1].w, at[2].xy / at[2].w);
 }
 
 // Texels along a map's longer side, as a power of two.

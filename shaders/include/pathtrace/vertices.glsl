@@ -52,6 +52,21 @@ vec4 attribute_at(DrawReference draw, uint triangle, vec3 weights, uint slot, ve
     return sum;
 }
 
+// A texture unit's coordinates at a triangle's corners.
+vec4[3] corner_coordinates(ViewRecord view, DrawReference draw, uint triangle, uint unit) {
+    uint slot = SLOT_TEXTURE0 + unit;
+    uint format = layout_format(draw.it.vertex_layout, slot);
+    vec4 given = CurrentTable(FrameTable(view.frame).entries[0].current).entries[draw.it.current].texture[unit].coefficients;
+    vec4 coordinates[3] = vec4[3](given, given, given);
+    if (format != FORMAT_ABSENT) {
+        uint first = layout_offset(draw.it.vertex_layout, slot);
+        [[dont_unroll]] for (uint i = 0u; i < 3u; ++i) {
+            coordinates[i] = read_attribute(corner_vertex(draw, triangle, i), first, format);
+        }
+    }
+    return coordinates;
+}
+
 // A triangle's corners in object space.
 vec4[3] corner_positions(DrawReference draw, uint triangle) {
     uint format = layout_format(draw.it.vertex_layout, SLOT_POSITION);

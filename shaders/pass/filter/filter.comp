@@ -7,6 +7,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
 
+#include "pathtrace/eye.glsl"
 #include "pathtrace/surface.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -41,9 +42,9 @@ void main() {
     // Depth is 0 where nothing is seen, and negative for the view's second kind of surfaces.
     if (middle.w != 0.0) {
         vec3 normal = unpack_unit_vector(surfaces.entries[index].normal);
-        vec3 middle_ray = view.pixel_origin + view.pixel_right * float(pixel.x) + view.pixel_down * float(pixel.y);
         float depth = abs(middle.w);
-        float tolerance = 1.0 / (PLANE_TOLERANCE * float(push.step) * view.pixel_spread * depth);
+        vec3 position = seen_position(view, vec2(pixel), depth);
+        float tolerance = 1.0 / (PLANE_TOLERANCE * float(push.step) * seen_height(view, depth));
         float weight = KERNEL[0];
         color *= weight;
         [[dont_unroll]] for (int i = 0; i < 9; ++i) {
@@ -57,8 +58,7 @@ void main() {
             if (sign(other.w) != sign(middle.w)) {
                 continue;
             }
-            vec3 ray = middle_ray + (view.pixel_right * float(offset.x) + view.pixel_down * float(offset.y)) * float(push.step);
-            float from_plane = abs(dot(normal, ray * abs(other.w) - middle_ray * depth));
+            float from_plane = abs(dot(normal, seen_position(view, vec2(at), abs(other.w)) - position));
             float facing = max(dot(normal, unpack_unit_vector(surfaces.entries[tap].normal)), 0.0);
             float share = KERNEL[abs(offset.x) + abs(offset.y)] * thirty_second_power(facing)
                 * max(1.0 - from_plane * tolerance, 0.0);

@@ -8,6 +8,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "trace.glsl"
+#include "pathtrace/eye.glsl"
 #include "pathtrace/finite.glsl"
 #include "pathtrace/reservoir.glsl"
 
@@ -109,8 +110,9 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
     Sums sums = Sums(no_channels(), Shade(0.0, vec3(0.0), vec3(0.0)));
     bool is_baked = kind == SURFACE_BAKED;
     PathRandom random = PathRandom(Random(random_pixel, view.accumulated), view.seed);
-    vec3 to_viewer = unit_vector(-seen.start);
-    Path path = path_from(seen, to_viewer, mask);
+    vec3 to_viewer = to_eye(view, seen.start);
+    RayCone cone = seen_cone(view, length(seen.start));
+    Path path = path_from(seen, to_viewer, mask, cone);
     Channels light = no_channels();
     RayPlan asked = RayPlan(seen.normal, 0.0, true, false, vec3(0.0), vec3(0.0), 0.0, false);
     uint done = 0u;
@@ -136,7 +138,7 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
         if (path.is_over) {
             add_sample(view, light, sums.light);
             light = no_channels();
-            path = path_from(seen, to_viewer, mask);
+            path = path_from(seen, to_viewer, mask, cone);
             ++random.random.sample_index;
             ++done;
         }
@@ -218,7 +220,7 @@ void main() {
     LightTexels(view.light).entries[index] = light;
     // Kinds that must not be mixed are told apart by the sign of the depth.
     uint kind = surface_kind(surface);
-    float depth = max(dot(view.forward, surface.start), 1e-20);
+    float depth = max(seen_depth(view, surface.start), 1e-20);
     bool is_second = kind == SURFACE_CATCHER || kind == SURFACE_BAKED;
     ColorTexels(push.target).entries[index] = vec4(light.indirect, kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth);
 }

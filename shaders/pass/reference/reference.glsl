@@ -8,6 +8,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "trace.glsl"
+#include "pathtrace/eye.glsl"
 #include "pathtrace/finite.glsl"
 #include "pathtrace/path.glsl"
 
@@ -22,17 +23,21 @@ struct Sample {
     bool is_on_path;
 };
 
-RayPlan camera_plan(ViewRecord view, uvec2 pixel, PathRandom random) {
+// The camera's ray; it starts where `own` is.
+RayPlan camera_plan(ViewRecord view, uvec2 pixel, PathRandom random, inout Sample own) {
     vec2 at = vec2(pixel) + path_numbers(view, random, DIMENSION_PIXEL).xy - 0.5;
-    vec3 direction = normalize(view.pixel_origin + view.pixel_right * at.x + view.pixel_down * at.y);
+    vec3 place = pixel_place(view, at);
+    own.path.at.start = looks_parallel(view) ? place : vec3(0.0);
+    vec3 direction = looks_parallel(view) ? view.forward : normalize(place);
     return RayPlan(direction, LONGEST_RAY, false, true, vec3(0.0), vec3(0.0), 0.0, false);
 }
 
 void take_camera_ray(ViewRecord view, RayPlan plan, bool met, Hit hit, inout Sample own) {
     if (met) {
-        SurfacePoint point = surface_point(view, hit, plan.direction);
+        RayCone cone = seen_cone(view, hit.t);
+        SurfacePoint point = surface_point(view, hit, plan.direction, cone);
         own.seen = point.emission;
-        own.path = path_from(point, -plan.direction, MASK_STATIC | MASK_MOVING);
+        own.path = path_from(point, -plan.direction, MASK_STATIC | MASK_MOVING, cone);
         own.is_on_path = true;
         return;
     }
@@ -44,9 +49,9 @@ void take_camera_ray(ViewRecord view, RayPlan plan, bool met, Hit hit, inout Sam
     own.path.is_over = true;
 }
 
-Sample new_sample() {
+Sample new_sample(ViewRecord view) {
     SurfacePoint eye = shining_point(vec3(0.0), NO_LIGHT);
-    Path path = path_from(eye, vec3(0.0), MASK_STATIC | MASK_MOVING);
+    Path path = path_from(eye, vec3(0.0), MASK_STATIC | MASK_MOVING, camera_cone(view.pixel_spread));
     path.is_over = false;
     return Sample(path, no_channels(), vec3(0.0), false);
 }
@@ -78,7 +83,7 @@ void main() {
         texel = RadianceTexels(view.radiance).entries[index];
     }
     PathRandom random = PathRandom(Random(index, view.accumulated), view.seed);
-    Sample own = new_sample();
+    Sample own = new_sample(view);
     uint end = view.accumulated + view.samples;
     uint rays = 0u;
     [[dont_unroll]] for (uint i = view.samples * (1u + most_rays(view)); i != 0u && random.random.sample_index < end; --i) {
@@ -86,7 +91,7 @@ void main() {
         if (own.is_on_path) {
             plan = plan_ray(view, own.path, random);
         } else {
-            plan = camera_plan(view, pixel, random);
+            plan = camera_plan(view, pixel, random, own);
         }
         Hit hit;
         bool met = false;
@@ -104,7 +109,7 @@ void main() {
             vec3 radiance = own.seen + light.direct + light.indirect + light.specular + light.open * view.sky;
             ++random.random.sample_index;
             add_radiance(view, radiance, random.random.sample_index, texel);
-            own = new_sample();
+            own = new_sample(view);
         }
     }
     atomicAdd(Counters(view.counters).entries[0].rays, rays);

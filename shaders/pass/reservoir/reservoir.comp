@@ -27,7 +27,7 @@ void main() {
         // Other numbers than those of paths, and in each frame others.
         uint seed = hash(view.seed + 0x5eed0u + hash(view.frame_number));
         PathRandom random = PathRandom(Random(hash(index + seed), 0u), seed);
-        Path path = path_from(seen_point(surface), unit_vector(-surface.start), 0u);
+        Path path = path_from(seen_point(surface), to_eye(view, surface.start), 0u, camera_cone(0.0));
         kept = chosen_over_time(view, path, random, kind);
     }
     Reservoirs(view.reservoirs).entries[index] = kept;

@@ -11,6 +11,7 @@
 
 #include "fixed/fog.glsl"
 #include "pathtrace/color.glsl"
+#include "pathtrace/eye.glsl"
 #include "pathtrace/materials.glsl"
 #include "pathtrace/said.glsl"
 #include "pathtrace/surface.glsl"
@@ -48,7 +49,7 @@ Facing facing(ViewRecord view, DrawReference draw, uint triangle, vec3 weights, 
     Facing result;
     vec3 position = world[0] * weights.x + world[1] * weights.y + world[2] * weights.z;
     vec3 geometric = unit_vector(cross(world[1] - world[0], world[2] - world[0]));
-    result.geometric = dot(geometric, position) > 0.0 ? -geometric : geometric;
+    result.geometric = dot(geometric, to_eye(view, position)) < 0.0 ? -geometric : geometric;
     result.start = position;
     uint format = layout_format(draw.it.vertex_layout, SLOT_NORMAL);
     mat3x4 rows = draw.it.object_to_world;

@@ -9,15 +9,15 @@ use super::subject::Subject;
 use crate::failure::Failure;
 
 /// A structure is built again while this has not passed, so that small ones are measured too.
-const LEAST: Duration = Duration::from_millis(200);
+pub const LEAST: Duration = Duration::from_millis(200);
 
 /// Figures of a bottom level.
 #[derive(Debug, Serialize)]
 pub struct BuildRow {
     /// Millions of triangles a second.
     pub fast_mtriangles: f64,
-    /// The same of the better tree.
-    pub good_mtriangles: f64,
+    /// The same of the better tree; none if that was not asked for.
+    pub good_mtriangles: Option<f64>,
     /// The same of new boxes in the old tree.
     pub refit_mtriangles: f64,
     /// Bytes on the device.
@@ -28,16 +28,20 @@ pub struct BuildRow {
     pub levels: u32,
 }
 
-/// Builds in both qualities and refits; returns the better tree.
-pub fn measure(subject: &Subject) -> Result<(Blas, BuildRow), Failure> {
+/// Builds in all qualities up to `quality` and refits; returns the best tree.
+pub fn measure(subject: &Subject, quality: Quality) -> Result<(Blas, BuildRow), Failure> {
     let (positions, indices) = &subject.mesh;
     let count = subject.triangle_count().max(1) as f64;
     let build = |quality| {
         build_blas(positions, indices, quality)
             .map_err(|error| Failure::Check(format!("{}: {error}", subject.name)))
     };
-    let (fast, _) = least_time(|| build(Quality::Fast))?;
-    let (good, mut blas) = least_time(|| build(Quality::Good))?;
+    let (fast, mut blas) = least_time(|| build(Quality::Fast))?;
+    let mut good = None;
+    if quality == Quality::Good {
+        let (seconds, better) = least_time(|| build(Quality::Good))?;
+        (good, blas) = (Some(seconds), better);
+    }
     let (refit, ()) = least_time(|| {
         blas.refit(positions, |primitive| indices[primitive as usize]);
         Ok(())
@@ -45,7 +49,7 @@ pub fn measure(subject: &Subject) -> Result<(Blas, BuildRow), Failure> {
     let mtriangles = |seconds: f64| count / seconds * 1e-6;
     let row = BuildRow {
         fast_mtriangles: mtriangles(fast),
-        good_mtriangles: mtriangles(good),
+        good_mtriangles: good.map(mtriangles),
         refit_mtriangles: mtriangles(refit),
         bytes_a_triangle: blas.size_bytes() as f64 / count,
         node_bytes_a_triangle: size_of_val(blas.nodes()) as f64 / count,

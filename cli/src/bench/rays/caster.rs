@@ -91,7 +91,12 @@ impl Caster {
     }
 
     fn batch(&self, rays: &Buffer) -> Batch {
-        Batch { rays: rays.address(), answers: self.answers.address(), count: self.count(), padding: 0 }
+        Batch {
+            rays: rays.address(),
+            answers: self.answers.address(),
+            count: self.count(),
+            width: self.size[0],
+        }
     }
 
     /// The camera's rays, and those that go on from where `structure` says that they end.

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::build::BuildRow;
+use super::hardware::DriverRow;
 use super::subject::Subject;
 
 /// All figures of a mesh.
@@ -16,10 +17,12 @@ pub struct SubjectRow {
     pub triangles: usize,
     /// Building it.
     pub build: BuildRow,
+    /// The driver's building of it, where its structures were asked for and are there.
+    pub driver: Option<DriverRow>,
     /// The yardstick first.
     pub structures: Vec<StructureRow>,
-    /// Backends that were asked for and are not there.
-    pub not_there: Vec<&'static str>,
+    /// Backends that were asked for and are not there, and why.
+    pub not_there: Vec<(&'static str, String)>,
 }
 
 /// Figures of a structure.
@@ -60,26 +63,21 @@ pub fn write_head(out: &mut dyn Write, device: &str, size: [u32; 2]) -> io::Resu
 impl SubjectRow {
     /// Without structures yet.
     pub fn new(subject: &Subject, build: BuildRow) -> Self {
-        let (structures, not_there) = (Vec::new(), Vec::new());
-        Self { name: subject.name.clone(), triangles: subject.triangle_count(), build, structures, not_there }
+        Self {
+            name: subject.name.clone(),
+            triangles: subject.triangle_count(),
+            build,
+            driver: None,
+            structures: Vec::new(),
+            not_there: Vec::new(),
+        }
     }
 
     /// Writes the mesh's figures as text.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let build = &self.build;
-        writeln!(
-            out,
-            "{}, {} triangles\n  builds {:.2} (fast), {:.2} (good), refits {:.2} Mtriangles/s; {:.1} bytes a triangle, {:.1} \
-             of nodes; {} levels",
-            self.name,
-            self.triangles,
-            build.fast_mtriangles,
-            build.good_mtriangles,
-            build.refit_mtriangles,
-            build.bytes_a_triangle,
-            build.node_bytes_a_triangle,
-            build.levels
-        )?;
+        writeln!(out, "{}, {} triangles", self.name, self.triangles)?;
+        self.build.write(out)?;
+        self.driver.as_ref().map_or(Ok(()), |driver| driver.write(out))?;
         for structure in &self.structures {
             for (number, rays) in structure.rays.iter().enumerate() {
                 let yardstick = self.structures[0].rays.get(number).map_or(f64::NAN, |rays| rays.best_mrays);
@@ -97,9 +95,40 @@ impl SubjectRow {
                 )?;
             }
         }
-        for backend in &self.not_there {
-            writeln!(out, "  {backend:<9} not there")?;
+        for (backend, reason) in &self.not_there {
+            writeln!(out, "  {backend:<9} not there: {reason}")?;
         }
         Ok(())
+    }
+}
+
+impl BuildRow {
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let good = self.good_mtriangles.map_or(String::new(), |good| format!(", {good:.2} (good)"));
+        writeln!(
+            out,
+            "  software  builds {:.2} (fast){good}, refits {:.2} Mtriangles/s; {:.1} bytes a triangle, {:.1} of nodes; {} \
+             levels",
+            self.fast_mtriangles,
+            self.refit_mtriangles,
+            self.bytes_a_triangle,
+            self.node_bytes_a_triangle,
+            self.levels
+        )
+    }
+}
+
+impl DriverRow {
+    fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(
+            out,
+            "  hardware  builds {:.2} (fast), {:.2} (good), updates {:.2} Mtriangles/s; {:.1} (fast), {:.1} (good, \
+             compacted) bytes a triangle",
+            self.fast_mtriangles,
+            self.good_mtriangles,
+            self.update_mtriangles,
+            self.fast_bytes_a_triangle,
+            self.good_bytes_a_triangle
+        )
     }
 }

@@ -1,7 +1,8 @@
 //! What rays are traced through. A backend is measured by implementing [`Structure`].
 
+use afterglow_bvh::layout::WHOLE_UNITS_CONSTANT;
 use afterglow_bvh::{Blas, IDENTITY, Instance, build_tlas};
-use afterglow_gpu::{Buffer, Commands, ComputeDesc, ComputePipeline, Gpu, GpuError, vk};
+use afterglow_gpu::{Buffer, Commands, ComputeDesc, ComputePipeline, DeviceKind, Gpu, GpuError, vk};
 use afterglow_shaders::{BENCH_BINARY_COMP, BENCH_WIDE_COMP};
 use bytemuck::{NoUninit, Pod, Zeroable};
 
@@ -19,8 +20,8 @@ pub struct Batch {
     pub answers: u64,
     /// How many.
     pub count: u32,
-    /// 0.
-    pub padding: u32,
+    /// Of the picture that they are pixels of, in pixels.
+    pub width: u32,
 }
 
 /// Something built that rays go through.
@@ -92,29 +93,29 @@ impl Structure for Plain {
     }
 }
 
-/// The driver's structures. None where they are not there.
-pub fn hardware(_gpu: &Gpu, _subject: &Subject) -> Result<Option<Box<dyn Structure>>, Failure> {
-    Ok(None)
-}
-
 /// A shader for the closest hit, and for any.
 struct Programs {
     closest: ComputePipeline,
     any: ComputePipeline,
 }
 
+/// Push constants of all kernels: what is gone through, and what for.
 #[repr(C)]
 #[derive(Clone, Copy, NoUninit)]
-struct Constants {
-    structure: u64,
-    batch: Batch,
+pub struct Constants {
+    /// Its address.
+    pub structure: u64,
+    /// The rays.
+    pub batch: Batch,
 }
 
 impl Programs {
     fn new(gpu: &Gpu, name: &str, spirv: &[u32]) -> Result<Self, GpuError> {
         let program = |any_hit: u32| {
             let desc = ComputeDesc::new(name, spirv).push_constants(size_of::<Constants>() as u32);
-            gpu.create_compute_pipeline(&desc.specialization(&[(0, any_hit)]))
+            let whole_units = u32::from(gpu.info().kind != DeviceKind::Cpu);
+            let constants = [(0, any_hit), (WHOLE_UNITS_CONSTANT, whole_units)];
+            gpu.create_compute_pipeline(&desc.specialization(&constants))
         };
         Ok(Self { closest: program(0)?, any: program(1)? })
     }

@@ -226,6 +226,15 @@ impl Arranger<'_> {
 }
 
 impl Arrangement {
+    /// Where nothing is to be traced, a clear of the window is a view all the same: rays of the camera's own see the sky and
+    /// its lights.
+    pub(crate) fn see_anything(&mut self, frame: &Frame) {
+        let is_clear = |index: &usize| matches!(frame.operations[*index], Operation::Clear(_));
+        if let (true, Some(place)) = (self.views.is_empty(), self.order.iter().rposition(is_clear)) {
+            self.views.push(place..place + 1);
+        }
+    }
+
     /// Puts a frame's operations, and the operations that a scene's verdicts name, in this order.
     pub(crate) fn apply(&self, frame: &mut Frame, scene: &mut Scene) {
         let mut places = vec![None; frame.operations.len()];

@@ -1,7 +1,7 @@
 //! From a judged frame to what its passes read: surfaces, the world, a record a view.
 
 use afterglow_gpu::GpuError;
-use afterglow_records::{MASK_MOVING, MeshMember, Paint, SurfaceKind, ViewRecord};
+use afterglow_records::{MASK_MOVING, MeshMember, Paint, SurfaceKind, TRACE_PARALLEL, ViewRecord};
 use afterglow_scene::Camera;
 use bytemuck::Zeroable;
 use glam::Vec3;
@@ -49,6 +49,8 @@ pub(crate) struct PreparedTrace {
     pub(crate) has_builds: bool,
     /// Lists must be brought there, too.
     pub(crate) has_lists: bool,
+    /// Rays may meet spheres.
+    pub(crate) has_spheres: bool,
     pub(crate) counts: TraceCounts,
 }
 
@@ -111,6 +113,11 @@ pub(crate) fn prepare(
     }
     let lists = tracer.bring_lists(&surfaces, &world.members, &frame_place, input.arena)?;
     let common = tracer.common(&input, tracing, camera, &surfaces, &world, &lists, size);
+    let program = match tracer.has_camera_rays {
+        true => &tracer.pipelines.reference,
+        false => &tracer.pipelines.light,
+    };
+    program.make_ready(input.gpu, input.table, world.has_spheres)?;
     let mut views = Vec::with_capacity(tracing.arrangement.views.len());
     let mut finds_exposure = true;
     let parity = tracer.kept.parity();
@@ -133,6 +140,7 @@ pub(crate) fn prepare(
         backend: tracer.options.backend,
         has_builds: tracer.world.structures().has_work(),
         has_lists: tracer.lists.has_work(),
+        has_spheres: world.has_spheres,
         counts: TraceCounts {
             traced_draws: surfaces.seen,
             unseen: surfaces.traced.len() - surfaces.seen,
@@ -213,7 +221,7 @@ impl Tracer {
                 most_surfaces: estimator.surfaces,
                 asked: estimator.asked,
                 candidates: estimator.candidates,
-                traits: estimator.traits,
+                traits: estimator.traits | if rays.is_parallel { TRACE_PARALLEL } else { 0 },
                 most_radiance: estimator.most_radiance,
                 highlight: highlight(&input.frame.lights, &scene.lights),
                 samples: options.spp.max(1),

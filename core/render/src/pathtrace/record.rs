@@ -26,6 +26,7 @@ impl TraceContext<'_> {
     pub(crate) fn record(&self, work: TraceWork) {
         let pipelines = self.pipelines;
         let groups = pixel_groups(self.buffers.size);
+        let has_spheres = self.prepared.has_spheres;
         let push = |view: usize| ViewPush { view: self.prepared.views[view].record, ..ViewPush::zeroed() };
         let indirect = |index: usize| self.buffers.indirect[index].buffer.address();
         let (pipeline, push, groups) = match work {
@@ -46,14 +47,20 @@ impl TraceContext<'_> {
                 return;
             }
             TraceWork::Reference(view) => {
-                pipelines.reference.run(self.commands, self.table, &push(view), self.buffers.size);
+                pipelines.reference.run(
+                    self.commands,
+                    self.table,
+                    &push(view),
+                    self.buffers.size,
+                    has_spheres,
+                );
                 return;
             }
             TraceWork::Surface(view) => (&pipelines.surface, push(view), groups),
             TraceWork::Reservoir(view) => (&pipelines.reservoir, push(view), groups),
             TraceWork::Light(view) => {
                 let push = ViewPush { target: indirect(0), ..push(view) };
-                pipelines.light.run(self.commands, self.table, &push, self.buffers.size);
+                pipelines.light.run(self.commands, self.table, &push, self.buffers.size, has_spheres);
                 return;
             }
             TraceWork::Filter(view, step) => {

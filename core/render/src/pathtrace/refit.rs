@@ -1,7 +1,7 @@
 //! Bottom levels of the software backend that change: moved with their triangles while that costs rays little.
 
 use afterglow_bvh::Blas;
-use afterglow_bvh::layout::Node;
+use afterglow_bvh::layout::{Child, Node, WIDTH};
 use afterglow_records::MEMBER_SHIFT;
 
 use super::structures::Member;
@@ -51,21 +51,12 @@ fn cost(blas: &Blas) -> f32 {
 
 /// Half the areas of a node's children, those of leaves once a triangle.
 fn children_area(node: &Node) -> f32 {
-    let spacing = node.exponents.map(|exponent| f32::from_bits(u32::from(exponent) << 23));
-    let slot_area = |slot: usize| {
-        let [x, y, z] = std::array::from_fn(|axis| {
-            let planes = node.high[axis][slot].saturating_sub(node.low[axis][slot]);
-            f32::from(planes) * spacing[axis]
-        });
-        let meta = node.meta[slot];
-        let tests = match (meta, node.inner_mask >> slot & 1) {
-            (0, _) => 0,
-            (_, 1) => 1,
-            (leaf, _) => (leaf >> 5).count_ones(),
-        };
-        (x * y + y * z + z * x) * tests as f32
+    let slot_area = |slot: usize| match Child::of(node.children[slot]) {
+        Child::Nothing => 0.0,
+        Child::Inner(_) => node.bounds(slot).half_area(),
+        Child::Leaf { count, .. } => node.bounds(slot).half_area() * count as f32,
     };
-    (0..node.meta.len()).map(slot_area).sum()
+    (0..WIDTH).map(slot_area).sum()
 }
 
 #[cfg(test)]

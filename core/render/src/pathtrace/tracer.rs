@@ -172,7 +172,7 @@ impl Tracer {
         self.put_in_order(frame, scene, true)
     }
 
-    /// Whether a camera shows the world; says so once if it does not. Rays of its own need a perspective.
+    /// Whether a camera shows the world; says so once if it does not. Rays of its own need pixels that are apart.
     fn can_see(&mut self, camera: &Camera, is_staged: bool) -> bool {
         let has_rays = is_staged && self.mode == Mode::Reference;
         let is_undone = camera.projection.as_dmat4().inverse().is_finite();
@@ -190,7 +190,10 @@ impl Tracer {
         }
         let report = SceneReport::of(&scene);
         let camera = scene.camera.filter(|camera| self.can_see(camera, is_staged));
-        let arrangement = camera.map(|_| arrange(frame, &scene));
+        let mut arrangement = camera.map(|_| arrange(frame, &scene));
+        if let (Some(arrangement), true) = (&mut arrangement, is_staged && self.mode == Mode::Reference) {
+            arrangement.see_anything(frame);
+        }
         let arrangement = arrangement.filter(|arrangement| !arrangement.views.is_empty());
         let tracing = arrangement.map(|mut arrangement| {
             arrangement.apply(frame, &mut scene);

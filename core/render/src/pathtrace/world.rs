@@ -47,6 +47,8 @@ pub(crate) struct World {
     pub(crate) instances: u32,
     /// Meshes that rays miss because they are still being built.
     pub(crate) waiting: usize,
+    /// Whether rays may meet spheres.
+    pub(crate) has_spheres: bool,
     /// The longest side of its box.
     pub(crate) extent: f32,
 }
@@ -150,14 +152,16 @@ impl WorldBuilder {
                 members.extend(group.draws.iter().flat_map(|&draw| members_of(&traced[draw])));
             }
         }
-        if let Some(lamps) = self.lamps(&lights.lamps, origin, members.len(), arena)? {
+        let lamps = self.lamps(&lights.lamps, origin, members.len(), arena)?;
+        let has_spheres = lamps.is_some();
+        if let Some(lamps) = lamps {
             placed.push(lamps);
             let first = lights.lamps.first_light as u32;
             members.push(MeshMember { draw: MEMBER_OF_LIGHTS | first, first_triangle: 0 });
         }
         let top = self.structures.top_level(&placed, arena)?;
         let TopLevel { address: top_level, instances, extent } = top;
-        Ok(World { top_level, members, instances, waiting, extent })
+        Ok(World { top_level, members, instances, waiting, has_spheres, extent })
     }
 
     fn build_mesh(

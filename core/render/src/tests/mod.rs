@@ -2,6 +2,7 @@
 
 mod backends;
 mod clears;
+mod cones;
 mod fragments;
 mod hints;
 mod images;

@@ -38,6 +38,6 @@ void main() {
     Path path = Paths(push.paths).entries[i];
     RayCone cone = travelled(camera_cone(path.pixel_spread), path.first);
     cone = travelled(scattered(cone, path.pdf, path.samples), path.second);
-    float texels = cone_texels(cone, path.cosine, path.area_world, path.area_coordinates);
+    float texels = cone_texels(cones_along(cone, path.cosine, path.area_world), path.area_coordinates);
     Answers(push.answers).entries[i] = vec3(cone.width, cone.spread, texels);
 }

@@ -199,10 +199,11 @@ pub(crate) fn corners_of(positions: &[[f32; 3]], corners: &[u32; 3]) -> Option<[
     (area_doubled > 0.0).then_some(vertices)
 }
 
+/// Both zeros are one, so that boxes do not depend on the order in which they are summed.
 pub(crate) fn bounds_of(triangle: &Triangle) -> Aabb {
     match triangle.sphere() {
         Some(sphere) => bounds_of_sphere(&sphere),
-        None => Aabb::around(&triangle.vertices.map(Vec3::from)),
+        None => Aabb::around(&triangle.vertices.map(|corner| Vec3::from(corner) + 0.0)),
     }
 }
 

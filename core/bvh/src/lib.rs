@@ -26,5 +26,6 @@ mod testing;
 pub use blas::{Blas, BlasInput, Quality, TriangleAttributes, build_blas, build_blas_with};
 pub use bounds::Aabb;
 pub use error::BuildError;
+pub use refit::Levels;
 pub use tlas::{IDENTITY, Instance, Tlas, build_tlas};
 pub use traverse::{Hit, Query, Ray, Scene, trace};

@@ -1,4 +1,5 @@
-//! A bottom level whose triangles moved: new boxes in the old tree. The model of a refit on the device.
+//! A bottom level whose triangles moved: new boxes in the old tree. The twin of a refit on the
+//! device (`shaders/pass/refit`).
 
 use crate::blas::{Blas, bounds_of, corners_of};
 use crate::bounds::Aabb;
@@ -40,6 +41,35 @@ impl Blas {
     }
 }
 
+/// A tree's nodes by their levels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Levels {
+    /// The numbers of all nodes, those of the deepest level first, the root last.
+    pub order: Vec<u32>,
+    /// How many nodes each level has, the deepest first.
+    pub counts: Vec<u32>,
+}
+
+impl Blas {
+    /// The nodes by their levels, which is the order in which a device can refit them: all of a level at once.
+    pub fn levels(&self) -> Levels {
+        let nodes = self.nodes();
+        let mut depths = vec![0u32; nodes.len()];
+        // Children follow their parents.
+        for (place, node) in nodes.iter().enumerate() {
+            for child in node.children {
+                if let Child::Inner(unit) = Child::of(child) {
+                    depths[(unit / NODE_UNITS) as usize] = depths[place] + 1;
+                }
+            }
+        }
+        let mut order: Vec<u32> = (0..nodes.len() as u32).collect();
+        order.sort_by_key(|&place| std::cmp::Reverse(depths[place as usize]));
+        let counts = order.chunk_by(|&one, &other| depths[one as usize] == depths[other as usize]);
+        Levels { counts: counts.map(|level| level.len() as u32).collect(), order }
+    }
+}
+
 const NODE_WORDS: usize = size_of::<Node>() / 4;
 
 /// The box of all of a node's children.
@@ -50,6 +80,7 @@ fn around_children(node: &Node) -> Aabb {
 
 #[cfg(test)]
 mod tests {
+    use crate::layout::{Child, NODE_UNITS};
     use crate::testing::Random;
     use crate::{Quality, build_blas};
 
@@ -62,6 +93,24 @@ mod tests {
         let mut refitted = built.clone();
         refitted.refit(&positions, |primitive| indices[primitive as usize]);
         assert_eq!(refitted, built);
+    }
+
+    #[test]
+    fn levels_have_children_before_their_parents() {
+        let (positions, indices) = crate::room::room(9);
+        let blas = build_blas(&positions, &indices, Quality::Fast).unwrap();
+        let levels = blas.levels();
+        assert_eq!(levels.counts.len() as u32, blas.depth);
+        assert_eq!(levels.counts.iter().sum::<u32>(), blas.node_count);
+        let mut is_done = vec![false; blas.node_count as usize];
+        for &place in &levels.order {
+            for child in blas.nodes()[place as usize].children {
+                if let Child::Inner(unit) = Child::of(child) {
+                    assert!(is_done[(unit / NODE_UNITS) as usize]);
+                }
+            }
+            is_done[place as usize] = true;
+        }
     }
 
     #[test]

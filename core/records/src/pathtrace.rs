@@ -365,6 +365,29 @@ shared_struct! {
     }
 }
 
+shared_struct! {
+    /// Push constants of a step of a refit; everything but the numbers is an address.
+    pub struct RefitPush {
+        pub structure: u64,
+        /// The number of the triangle that each leaf record is of.
+        pub sources: u64,
+        /// Three corners a triangle.
+        pub corners: u64,
+        /// Numbers of nodes, the deepest level first.
+        pub order: u64,
+        /// What rays through each node cost, an f32.
+        pub costs: u64,
+        /// The root's goes here, too.
+        pub answer: u64,
+        /// How many nodes there are.
+        pub nodes: u32,
+        /// Which records, or which part of the order.
+        pub first: u32,
+        pub count: u32,
+        pub padding: u32,
+    }
+}
+
 /// How light is found for a pixel, as `SurfaceDraw::kind` holds it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]

@@ -216,6 +216,22 @@ struct ViewPush { // 32 bytes
 };
 #endif
 
+#ifndef STRUCT_RefitPush
+#define STRUCT_RefitPush
+struct RefitPush { // 64 bytes
+    uint64_t structure;
+    uint64_t sources;
+    uint64_t corners;
+    uint64_t order;
+    uint64_t costs;
+    uint64_t answer;
+    uint nodes;
+    uint first;
+    uint count;
+    uint padding;
+};
+#endif
+
 #define BLEND_WORDS 1
 #define BLEND_ENABLED_WORD 0
 #define blend_enabled(w) (((w) >> 0) & 0x1u)

@@ -9,6 +9,14 @@ pub(crate) fn declare(graph: &mut GraphBuilder, views: &ViewResources, has_build
     graph.pass("build", kind).read_write(views.world, access).when(has_builds, "nothing is new in the world");
 }
 
+/// Moves structures by shaders, which the software backend alone does.
+pub(crate) fn declare_moves(graph: &mut GraphBuilder, views: &ViewResources, has_moves: bool) {
+    graph
+        .pass("refit", PassKind::Compute)
+        .read_write(views.world, Access::StorageWriteCompute)
+        .when(has_moves, "no large mesh has moved");
+}
+
 pub(crate) fn declare_lists(graph: &mut GraphBuilder, views: &ViewResources, has_copies: bool) {
     graph
         .pass("lists", PassKind::Transfer)

@@ -162,7 +162,7 @@ impl Shared {
         let mut helpers = Vec::new();
         let pool = pool(&mut helpers);
         while let Some(mut order) = self.next() {
-            let quality = if order.is_built { Quality::Good } else { Quality::Fast };
+            let quality = if order.is_built { Quality::Best } else { Quality::Fast };
             let build = || match &pool {
                 Some(pool) => pool.install(|| build(&order, quality)),
                 None => build(&order, quality),

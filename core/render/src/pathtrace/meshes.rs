@@ -1,6 +1,6 @@
 //! Structures of the software backend: bottom levels on the device, found by their content, and a top level a frame.
 //! Where a mesh that does not last is gone and another has the same triangles in the same order, only moved, its structure
-//! moves with them.
+//! moves with them: a small one is moved by the processor, a large one by the device.
 //!
 //! What lasts is built by another thread where frames do not wait for it: until it comes, rays pass through it. So that little
 //! is missing for long, a few small meshes a frame are built at once, and small ones come before large ones.
@@ -11,10 +11,10 @@ use afterglow_bvh::{
 };
 use afterglow_gpu::{Commands, Gpu, GpuError};
 use afterglow_records::MEMBER_SHIFT;
-use hashbrown::hash_map::Entry;
 use hashbrown::{HashMap, HashSet};
 
 use super::background::{Background, Finished, Order};
+use super::device_refit::{DeviceTree, LEAST_TRIANGLES, Refitter};
 use super::refit::Movable;
 use super::slabs::Part;
 use super::staging::Staging;
@@ -32,14 +32,24 @@ const MOST_AT_ONCE: usize = 2_000;
 struct Mesh {
     part: Part,
     bounds: Aabb,
-    /// Of meshes that do not last: the structure.
-    movable: Option<Movable>,
+    moving: Option<Moving>,
+}
+
+/// How a mesh that does not last is moved.
+enum Moving {
+    /// By the processor, which has the structure.
+    Processor(Movable),
+    Device(DeviceTree),
 }
 
 /// All meshes that rays can meet, and the copies that this frame's new structures need.
 pub(crate) struct Meshes {
     staging: Staging,
     meshes: HashMap<u64, Mesh>,
+    /// None where the processor moves all.
+    refitter: Option<Refitter>,
+    /// Meshes of fewer triangles are moved by the processor anyway.
+    least_refitted: usize,
     /// None if frames wait for all that they need.
     background: Option<Background>,
     /// Meshes that are still being built.
@@ -50,25 +60,21 @@ pub(crate) struct Meshes {
 
 impl Meshes {
     /// `waits`: frames wait for all that they need.
-    pub(crate) fn new(gpu: &Gpu, waits: bool) -> Self {
+    pub(crate) fn new(gpu: &Gpu, waits: bool) -> Result<Self, GpuError> {
         let build = |order: &Order, quality| of_triangles(&order.corners, &order.members, quality);
-        Self {
+        Ok(Self {
             staging: Staging::new(gpu, "meshes", SLAB_BYTES),
             meshes: HashMap::new(),
+            // A processor that plays the device is no faster than itself.
+            refitter: match gpu.info().kind.is_software() {
+                true => None,
+                false => Some(Refitter::new(gpu)?),
+            },
+            least_refitted: LEAST_TRIANGLES,
             background: (!waits).then(|| Background::new(build)),
             waiting: HashSet::new(),
             at_once: 0,
-        }
-    }
-
-    fn insert(&mut self, content: u64, blas: &Blas, arena: &mut UploadArena) -> Result<&mut Mesh, GpuError> {
-        let part = self.staging.bring(bytemuck::cast_slice(&blas.words), arena)?;
-        let mesh = Mesh { part, bounds: blas.bounds, movable: None };
-        let entry = self.meshes.entry(content);
-        if let Entry::Occupied(former) = &entry {
-            self.staging.free(former.get().part.clone());
-        }
-        Ok(entry.insert(mesh).into_mut())
+        })
     }
 
     /// Builds a mesh that lasts.
@@ -95,7 +101,7 @@ impl Meshes {
             }
         }
         let blas = of_triangles(corners, members, quality);
-        blas.map_or(Ok(()), |blas| self.insert(content, &blas, arena).map(|_| ()))
+        blas.map_or(Ok(()), |blas| self.keep(content, &blas, arena))
     }
 
     /// Takes what was built meanwhile.
@@ -104,23 +110,105 @@ impl Meshes {
         for Finished { content, blas } in finished {
             let is_needed = self.waiting.remove(&content) || self.meshes.contains_key(&content);
             if let Some(blas) = blas.filter(|_| is_needed) {
-                self.insert(content, &blas, arena)?;
+                self.keep(content, &blas, arena)?;
             }
         }
         Ok(())
     }
 
-    /// Takes the structure of a mesh that becomes another one.
-    fn take(&mut self, content: u64) -> Option<Movable> {
-        let mesh = self.meshes.remove(&content)?;
-        self.staging.free(mesh.part);
-        mesh.movable
+    /// Builds a mesh that does not last, or moves another.
+    fn build_changing(
+        &mut self,
+        content: u64,
+        corners: &[[f32; 3]],
+        members: &[Member],
+        changing: &Changing<'_>,
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        let former = changing.former.and_then(|former| self.meshes.remove(&former));
+        let moved = match former {
+            Some(former) => self.moved(former, corners, members, changing.input.bounds, arena)?,
+            None => None,
+        };
+        let mesh = match moved {
+            Some(moved) => Some(moved),
+            None => self.movable(corners, members, arena)?,
+        };
+        self.meshes.extend(mesh.map(|mesh| (content, mesh)));
+        Ok(())
+    }
+
+    /// What a mesh becomes; none if it must be built anew.
+    fn moved(
+        &mut self,
+        former: Mesh,
+        corners: &[[f32; 3]],
+        members: &[Member],
+        bounds: Aabb,
+        arena: &mut UploadArena,
+    ) -> Result<Option<Mesh>, GpuError> {
+        match (former.moving, &mut self.refitter) {
+            (Some(Moving::Device(mut tree)), Some(refitter)) => {
+                let (structure, area) = (former.part.address, bounds.half_area());
+                if refitter.moves(&mut tree, structure, corners, area, &mut self.staging, arena)? {
+                    return Ok(Some(Mesh { bounds, moving: Some(Moving::Device(tree)), ..former }));
+                }
+                tree.free(&mut self.staging);
+                self.staging.free(former.part);
+                Ok(None)
+            }
+            (Some(Moving::Processor(movable)), _) => {
+                self.staging.free(former.part);
+                let Some(moved) = movable.moved(corners, members) else { return Ok(None) };
+                let mesh = self.bring(&moved.blas, arena)?;
+                Ok(Some(Mesh { moving: Some(Moving::Processor(moved)), ..mesh }))
+            }
+            _ => {
+                self.staging.free(former.part);
+                Ok(None)
+            }
+        }
+    }
+
+    /// A mesh that is built now and may be moved later; none if there is nothing to meet.
+    fn movable(
+        &mut self,
+        corners: &[[f32; 3]],
+        members: &[Member],
+        arena: &mut UploadArena,
+    ) -> Result<Option<Mesh>, GpuError> {
+        let Some(blas) = of_triangles(corners, members, Quality::Fast) else { return Ok(None) };
+        let mesh = self.bring(&blas, arena)?;
+        let is_large = corners.len() / 3 >= self.least_refitted;
+        let moving = match is_large && self.refitter.is_some() {
+            true => Moving::Device(DeviceTree::new(&blas, members, &mut self.staging, arena)?),
+            false => Moving::Processor(Movable::new(blas)),
+        };
+        Ok(Some(Mesh { moving: Some(moving), ..mesh }))
+    }
+
+    /// Brings a structure to the device.
+    fn bring(&mut self, blas: &Blas, arena: &mut UploadArena) -> Result<Mesh, GpuError> {
+        let part = self.staging.bring(bytemuck::cast_slice(&blas.words), arena)?;
+        Ok(Mesh { part, bounds: blas.bounds, moving: None })
+    }
+
+    /// Keeps a mesh that lasts, in the place of a worse one.
+    fn keep(&mut self, content: u64, blas: &Blas, arena: &mut UploadArena) -> Result<(), GpuError> {
+        let mesh = self.bring(blas, arena)?;
+        if let Some(worse) = self.meshes.insert(content, mesh) {
+            self.staging.free(worse.part);
+        }
+        Ok(())
     }
 }
 
 impl Builder for Meshes {
     fn begin_frame(&mut self, arena: &mut UploadArena) -> Result<(), GpuError> {
         self.staging.begin_frame();
+        if let Some(refitter) = &mut self.refitter {
+            refitter.begin_frame();
+        }
         self.at_once = 0;
         self.take_finished(arena)
     }
@@ -139,20 +227,15 @@ impl Builder for Meshes {
         match input.shapes {
             Shapes::Spheres(spheres) => {
                 let blas = built(&BlasInput { spheres, ..BlasInput::default() }, Quality::Fast);
-                blas.map_or(Ok(()), |blas| self.insert(content, &blas, arena).map(|_| ()))
+                blas.map_or(Ok(()), |blas| self.keep(content, &blas, arena))
             }
             Shapes::Triangles { corners, members } if input.is_lasting => {
                 self.build_lasting(content, corners, members, arena)
             }
-            Shapes::Triangles { corners, members } => {
-                let former = changing.and_then(|changing| self.take(changing.former?));
-                let anew = || of_triangles(corners, members, Quality::Fast).map(Movable::new);
-                let moved = former.and_then(|former| former.moved(corners, members));
-                let Some(movable) = moved.or_else(anew) else { return Ok(()) };
-                let mesh = self.insert(content, &movable.blas, arena)?;
-                mesh.movable = Some(movable);
-                Ok(())
-            }
+            Shapes::Triangles { corners, members } => match changing {
+                Some(changing) => self.build_changing(content, corners, members, changing, arena),
+                None => Ok(()),
+            },
         }
     }
 
@@ -165,7 +248,12 @@ impl Builder for Meshes {
     }
 
     fn free(&mut self, content: u64) {
-        self.take(content);
+        if let Some(mesh) = self.meshes.remove(&content) {
+            self.staging.free(mesh.part);
+            if let Some(Moving::Device(tree)) = mesh.moving {
+                tree.free(&mut self.staging);
+            }
+        }
         self.waiting.remove(&content);
         if let Some(background) = &mut self.background {
             background.cancel(content);
@@ -203,6 +291,21 @@ impl Builder for Meshes {
     fn record(&self, commands: &Commands<'_>) {
         self.staging.record(commands);
     }
+
+    #[cfg(test)]
+    fn always_refit(&mut self, gpu: &Gpu) {
+        (self.refitter, self.least_refitted) = (Some(Refitter::new(gpu).unwrap()), 0);
+    }
+
+    fn has_moves(&self) -> bool {
+        self.refitter.as_ref().is_some_and(Refitter::has_work)
+    }
+
+    fn record_moves(&self, commands: &Commands<'_>) {
+        if let Some(refitter) = &self.refitter {
+            refitter.record(commands);
+        }
+    }
 }
 
 /// A structure; none if there is nothing to meet.
@@ -213,7 +316,7 @@ fn built(input: &BlasInput<'_>, quality: Quality) -> Option<Blas> {
         .filter(|blas| blas.triangle_count > 0)
 }
 
-fn of_triangles(corners: &[[f32; 3]], members: &[Member], quality: Quality) -> Option<Blas> {
+pub(super) fn of_triangles(corners: &[[f32; 3]], members: &[Member], quality: Quality) -> Option<Blas> {
     let attributes = attributes(members);
     let indices: Vec<[u32; 3]> = (0..attributes.len() as u32)
         .map(|triangle| [3 * triangle, 3 * triangle + 1, 3 * triangle + 2])

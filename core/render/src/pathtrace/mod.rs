@@ -11,6 +11,7 @@ mod background;
 pub(crate) mod buffers;
 mod change;
 mod compaction;
+mod device_refit;
 mod driver_input;
 mod estimator;
 mod formers;

@@ -47,6 +47,8 @@ pub(crate) struct PreparedTrace {
     pub(crate) backend: Backend,
     /// The world must be brought to the device.
     pub(crate) has_builds: bool,
+    /// Structures there must be moved.
+    pub(crate) has_moves: bool,
     /// Lists must be brought there, too.
     pub(crate) has_lists: bool,
     /// Rays may meet spheres.
@@ -139,6 +141,7 @@ pub(crate) fn prepare(
         parity,
         backend: tracer.options.backend,
         has_builds: tracer.world.structures().has_work(),
+        has_moves: tracer.world.structures().has_moves(),
         has_lists: tracer.lists.has_work(),
         has_spheres: world.has_spheres,
         counts: TraceCounts {

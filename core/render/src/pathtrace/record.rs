@@ -38,6 +38,10 @@ impl TraceContext<'_> {
                 self.structures.record(self.commands);
                 return;
             }
+            TraceWork::Refit => {
+                self.structures.record_moves(self.commands);
+                return;
+            }
             TraceWork::ClearSums => {
                 self.commands.fill_buffer(&self.buffers.movers.buffer, 0);
                 return;

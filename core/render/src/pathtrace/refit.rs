@@ -7,7 +7,7 @@ use afterglow_records::MEMBER_SHIFT;
 use super::structures::Member;
 
 /// The cost of a moved structure, as a multiple of what it was when it was built, from which on it is built anew.
-const MOST_COST: f32 = 1.5;
+pub(super) const MOST_COST: f32 = 1.5;
 
 /// A bottom level as the processor has it.
 pub(super) struct Movable {
@@ -23,18 +23,9 @@ impl Movable {
 
     /// Moves the triangles of members to three corners each. None if rays would get too slow.
     pub(super) fn moved(mut self, corners: &[[f32; 3]], members: &[Member]) -> Option<Self> {
-        let firsts: Vec<u32> = members
-            .iter()
-            .scan(0, |before, member| {
-                let first = *before;
-                *before += member.triangles;
-                Some(first)
-            })
-            .collect();
+        let of = triangle_of(members);
         self.blas.refit(corners, |primitive| {
-            let member = (primitive >> MEMBER_SHIFT) as usize;
-            let first = firsts.get(member).copied().unwrap_or(u32::MAX / 8);
-            let triangle = first + (primitive & ((1 << MEMBER_SHIFT) - 1));
+            let triangle = of(primitive);
             [3 * triangle, 3 * triangle + 1, 3 * triangle + 2]
         });
         // What is not a number fails the comparison.
@@ -42,9 +33,27 @@ impl Movable {
     }
 }
 
+/// Finds the number of a triangle among the members', by what a hit reports of it.
+pub(super) fn triangle_of(members: &[Member]) -> impl Fn(u32) -> u32 + use<> {
+    let firsts: Vec<u32> = members
+        .iter()
+        .scan(0, |before, member| {
+            let first = *before;
+            *before += member.triangles;
+            Some(first)
+        })
+        .collect();
+    move |primitive| {
+        let member = (primitive >> MEMBER_SHIFT) as usize;
+        // One that is not there has no corners.
+        let first = firsts.get(member).copied().unwrap_or(u32::MAX / 8);
+        first + (primitive & ((1 << MEMBER_SHIFT) - 1))
+    }
+}
+
 /// What a ray through the structure's box costs, by the surface-area heuristic: a unit for each child and triangle that it is
 /// expected to be tested against.
-fn cost(blas: &Blas) -> f32 {
+pub(super) fn cost(blas: &Blas) -> f32 {
     let area: f32 = blas.nodes().iter().map(children_area).sum();
     area / blas.bounds.half_area()
 }

@@ -13,6 +13,7 @@ use crate::schedule::Resources;
 pub(crate) enum TraceWork {
     Lists,
     Build,
+    Refit,
     ClearCounters,
     /// Radiance by the camera's own rays.
     Reference(usize),
@@ -160,6 +161,8 @@ pub(crate) fn declare_view(
         build::declare_lists(graph, views, prepared.has_lists);
         work.push(TraceWork::Build);
         build::declare(graph, views, prepared.has_builds);
+        work.push(TraceWork::Refit);
+        build::declare_moves(graph, views, prepared.has_moves);
         work.push(TraceWork::ClearCounters);
         light::declare_clear(graph, views);
     }

@@ -59,6 +59,14 @@ impl Staging {
         Ok(address)
     }
 
+    /// Memory for so many bytes that only this frame uses. Returns its address.
+    pub(crate) fn scratch(&mut self, bytes: u64) -> Result<u64, GpuError> {
+        let part = self.slabs.allocate(bytes)?;
+        let address = part.address;
+        self.free(part);
+        Ok(address)
+    }
+
     /// Gives a part back; frames in flight may still use it.
     pub(crate) fn free(&mut self, part: Part) {
         self.slabs.free(part);

@@ -113,6 +113,18 @@ pub(super) trait Builder: Send {
 
     /// Records what brings this frame's structures to the device.
     fn record(&self, commands: &Commands<'_>);
+
+    /// Whether shaders move structures in this frame.
+    fn has_moves(&self) -> bool {
+        false
+    }
+
+    /// Records that.
+    fn record_moves(&self, _commands: &Commands<'_>) {}
+
+    /// Lets the device move all that it can from now on.
+    #[cfg(test)]
+    fn always_refit(&mut self, _gpu: &Gpu) {}
 }
 
 /// A mesh that does not last.
@@ -147,7 +159,7 @@ impl Structures {
     /// If the device lacks what the backend needs.
     pub(crate) fn new(gpu: &Gpu, backend: Backend, waits: bool) -> Result<Self, GpuError> {
         Ok(Self::with(match backend {
-            Backend::Software => Box::new(Meshes::new(gpu, waits)),
+            Backend::Software => Box::new(Meshes::new(gpu, waits)?),
             Backend::Hardware => Box::new(HardwareStructures::new(gpu)?),
         }))
     }
@@ -245,6 +257,22 @@ impl Structures {
     /// Whether this frame has anything to record.
     pub(crate) fn has_work(&self) -> bool {
         self.builder.has_work()
+    }
+
+    /// Lets the device move all that it can from now on.
+    #[cfg(test)]
+    pub(crate) fn always_refit(&mut self, gpu: &Gpu) {
+        self.builder.always_refit(gpu);
+    }
+
+    /// Whether shaders move structures in this frame.
+    pub(crate) fn has_moves(&self) -> bool {
+        self.builder.has_moves()
+    }
+
+    /// Records that, after what [`record`](Self::record) does.
+    pub(crate) fn record_moves(&self, commands: &Commands<'_>) {
+        self.builder.record_moves(commands);
     }
 
     /// Records what brings this frame's structures to the device.

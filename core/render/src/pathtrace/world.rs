@@ -110,6 +110,11 @@ impl WorldBuilder {
         self.structures.begin_frame(arena)
     }
 
+    #[cfg(test)]
+    pub(crate) fn structures_mut(&mut self) -> &mut Structures {
+        &mut self.structures
+    }
+
     pub(crate) fn structures(&self) -> &Structures {
         &self.structures
     }

@@ -110,6 +110,28 @@ fn what_moves_and_bends_is_met_where_it_is() {
     assert_alike(&stages);
 }
 
+/// Lavapipe's structures are moved by the processor unless the device is made to.
+#[test]
+fn what_the_device_moves_is_what_the_processor_moves() {
+    let picture = |by_device: bool| {
+        let mut stage = Stage::new(Mode::Pathtrace, |options| options.filter = false);
+        if by_device {
+            let renderer = &mut *stage.renderer.lock().unwrap();
+            let world = &mut renderer.tracer.as_mut().unwrap().world;
+            world.structures_mut().always_refit(&renderer.gpu);
+        }
+        for frame in 0..7 {
+            let phase = 0.3 * frame as f32;
+            floor_and_slab(&mut stage, 0.1 * phase, |gl| wave(gl, phase));
+        }
+        let report = stage.renderer.lock().unwrap().frame_report().unwrap().clone();
+        assert_eq!(report.passes.iter().any(|pass| pass.name == "refit"), by_device);
+        stage.picture()
+    };
+    assert!(picture(true) == picture(false));
+    assert_valid();
+}
+
 /// A display list of the slab: a mesh that lasts, so that it is compacted.
 #[test]
 fn what_lasts_stays_as_it_is_when_it_is_made_smaller() {

@@ -13,5 +13,5 @@ mod world;
 
 pub use picture::{Estimate, Picture};
 pub use shapes::{cube, icosphere, quad};
-pub use shot::{Shot, backend, pathtrace, reference, staged};
+pub use shot::{Shot, backend, pathtrace, reference, renderer, staged};
 pub use world::{World, lambert, metal, shining};

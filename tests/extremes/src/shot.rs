@@ -1,6 +1,6 @@
 //! The renderer that all tests share.
 
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{Gpu, GpuOptions};
@@ -35,10 +35,7 @@ impl Shot {
 
     /// Renders a frame whose scene is known.
     pub fn render(&self, mode: Mode, staged: (Frame, Scene)) -> Picture {
-        static RENDERER: OnceLock<Mutex<Renderer>> = OnceLock::new();
-        let new = || Mutex::new(Renderer::new(gpu(), &RenderOptions::default()).unwrap());
-        // A test that has failed leaves a renderer that works.
-        let mut renderer = RENDERER.get_or_init(new).lock().unwrap_or_else(PoisonError::into_inner);
+        let mut renderer = renderer();
         let picture = self.render_with(&mut renderer, mode, staged);
         assert_eq!(gpu().validation_count(), 0, "{:#?}", gpu().validation_messages());
         picture
@@ -65,6 +62,14 @@ impl Shot {
             shown: renderer.read_color().unwrap(),
         }
     }
+}
+
+/// The renderer of all tests; who holds it is the only one who draws, with it or with another one.
+pub fn renderer() -> MutexGuard<'static, Renderer> {
+    static RENDERER: OnceLock<Mutex<Renderer>> = OnceLock::new();
+    let new = || Mutex::new(Renderer::new(gpu(), &RenderOptions::default()).unwrap());
+    // A test that has failed leaves a renderer that works.
+    RENDERER.get_or_init(new).lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Renders a world with the camera's own rays, without any bias.

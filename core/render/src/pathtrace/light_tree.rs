@@ -248,7 +248,8 @@ mod tests {
         let place =
             |i: usize| Vec3::new((i * 7919 % 1000) as f32, (i * 104_729 % 1000) as f32, (i % 13) as f32);
         let mut lights: Vec<_> = (0..10_000).map(|i| sphere(place(i), 1.0 + (i % 5) as f32)).collect();
-        (lights[17].color, lights[18].color) = ([0.0; 3], [f32::MAX; 3]);
+        lights[17].color = [0.0; 3];
+        (lights[18].color, lights[18].radius) = ([f32::MAX; 3], 1e3);
         let nodes = build(&mut lights, 0);
         assert_eq!(nodes.len(), 2 * 9_998 - 1);
         for (number, light) in lights.iter().enumerate().filter(|(number, _)| !(17..=18).contains(number)) {

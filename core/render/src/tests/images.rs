@@ -15,7 +15,7 @@ use tempfile::TempDir;
 
 use super::pathtrace::{OPEN, SIZE, Stage, look_down, slab};
 use crate::testing::assert_valid;
-use crate::{ImageOptions, Mode};
+use crate::{Backend, ImageOptions, Mode};
 
 const LEFT: [f32; 3] = [1.0, -1.0, 0.0];
 const RIGHT: [f32; 3] = [-1.0, -1.0, 0.0];
@@ -115,6 +115,32 @@ fn a_texture_is_replaced_where_frames_are_traced() {
     draw(&mut raster, LEFT);
     let [red, green, _] = pixel(&raster, OPEN);
     assert_eq!(red, green);
+}
+
+#[test]
+fn all_images_are_there_in_either_mode_by_either_backend() {
+    let folder = folder_with(".png", &png(&[0, 255, 0, 255], Rgba8));
+    for (end, texel) in [("_normal.png", [128, 128, 255, 0]), ("_emission.png", [0, 0, 160, 100])] {
+        fs::write(folder.path().join(format!("{:016x}{end}", floor_hash())), png(&texel, Rgba8)).unwrap();
+    }
+    for mode in [Mode::Pathtrace, Mode::Reference] {
+        let floors = [Backend::Software, Backend::Hardware].map(|backend| {
+            let mut stage = Stage::new(mode, |options| {
+                options.images = Some(ImageOptions { folder: folder.path().into(), waits: true });
+                options.backend = backend;
+                options.spp = 32;
+            });
+            draw(&mut stage, LEFT);
+            pixel(&stage, OPEN)
+        });
+        for [red, green, blue] in floors {
+            assert!(green > red + 30 && blue > red + 30, "{mode:?}: {floors:?}");
+        }
+        let [software, hardware] = floors;
+        let far = software.iter().zip(hardware).filter(|(a, b)| (*a - b).abs() > 2);
+        assert_eq!(far.count(), 0, "{mode:?}: {floors:?}");
+    }
+    assert_valid();
 }
 
 #[test]

@@ -22,11 +22,23 @@ pub(crate) struct DrawCommand {
 }
 
 /// Memory of the last frame, used again.
-#[derive(Default)]
 pub(crate) struct Scratch {
     pub(crate) draws: Vec<DrawRecord>,
     pub(crate) commands: Vec<DrawCommand>,
+    /// The frame's record.
+    pub(crate) record: FrameRecord,
     residents: Vec<Resident>,
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self {
+            draws: Vec::new(),
+            commands: Vec::new(),
+            record: bytemuck::Zeroable::zeroed(),
+            residents: Vec::new(),
+        }
+    }
 }
 
 /// Vertices and indices of a frame's arena.
@@ -74,6 +86,7 @@ pub(crate) fn upload(
         window_size: window_size.map(|side| side as f32),
     };
     let address = arena.push(bytemuck::bytes_of(&record))?.address;
+    scratch.record = record;
     Ok((address, copies))
 }
 

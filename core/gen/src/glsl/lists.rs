@@ -58,5 +58,6 @@ pub fn pathtrace() -> Vec<StructDescription> {
         MoverSum,
         Exposure,
         ViewPush,
+        SkyPush,
     ]
 }

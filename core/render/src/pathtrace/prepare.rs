@@ -12,9 +12,10 @@ use super::change::{ChangeHasher, History, changes_textures};
 use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
 use super::lights::{LightList, highlight};
-use super::options::Mode;
+use super::options::{Mode, SkyChoice};
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
+use super::sky::{self, SkyUse};
 use super::tracer::{Tracer, Tracing};
 use super::world::{Traced, World};
 use crate::passes::raster::DrawMark;
@@ -44,6 +45,7 @@ pub(crate) struct PreparedTrace {
     /// Which buffers are this frame's, and which the one's before.
     pub(crate) parity: usize,
     pub(crate) backend: Backend,
+    pub(crate) sky: SkyUse,
     /// The world must be brought to the device.
     pub(crate) has_builds: bool,
     pub(crate) counts: TraceCounts,
@@ -64,6 +66,17 @@ pub struct TraceCounts {
     pub lights: usize,
     /// Samples a pixel in the first view, earlier frames' included.
     pub samples: usize,
+    /// What rays see of the sky.
+    pub sky: SkyChoice,
+    /// Times that the sky was drawn for rays so far.
+    pub sky_drawings: usize,
+}
+
+/// What rays find in a frame.
+struct Found<'a, 'f> {
+    surfaces: &'a Surfaces<'f>,
+    world: &'a World,
+    sky: &'a SkyUse,
 }
 
 /// What all views of a frame share.
@@ -102,7 +115,10 @@ pub(crate) fn prepare(
     for (traced, reach) in surfaces.traced.iter().zip(&tracer.world.reaches) {
         surfaces.records[traced.surface as usize].reach = *reach;
     }
-    let common = tracer.common(&mut input, tracing, camera, &surfaces, &world, size)?;
+    let Tracer { sky: map, recovery, options, .. } = &mut *tracer;
+    let sky = sky::prepare(map, recovery, &mut input, &tracing.scene, camera, options.sky)?;
+    let found = Found { surfaces: &surfaces, world: &world, sky: &sky };
+    let common = tracer.common(&mut input, tracing, camera, &found, size)?;
     let mut views = Vec::with_capacity(tracing.arrangement.views.len());
     let mut finds_exposure = true;
     let parity = tracer.kept.parity();
@@ -118,11 +134,13 @@ pub(crate) fn prepare(
         views.push(PreparedView { record, needs });
     }
     tracer.kept.end(camera, origin, &surfaces.lights, keeps_lights);
+    let seen_sky = if sky.is_mapped() { SkyChoice::Cube } else { SkyChoice::Constant };
     Ok(PreparedTrace {
         marks: surfaces.marks,
         views,
         parity,
         backend: tracer.options.backend,
+        sky,
         has_builds: tracer.world.structures().has_work(),
         counts: TraceCounts {
             traced_draws: surfaces.seen,
@@ -131,6 +149,8 @@ pub(crate) fn prepare(
             built_triangles: tracer.world.structures().built(),
             lights: common.record.light_count as usize,
             samples: tracer.history.first().map_or(0, |history| history.samples() as usize),
+            sky: seen_sky,
+            sky_drawings: tracer.sky.as_ref().map_or(0, |sky| sky.drawings() as usize),
         },
     })
 }
@@ -141,8 +161,7 @@ impl Tracer {
         input: &mut TraceInput<'_>,
         tracing: &Tracing,
         camera: &Camera,
-        surfaces: &Surfaces<'_>,
-        world: &World,
+        &Found { surfaces, world, sky }: &Found<'_, '_>,
         size: [u32; 2],
     ) -> Result<Common, GpuError> {
         let (scene, options) = (&tracing.scene, &self.options);
@@ -150,8 +169,10 @@ impl Tracer {
         let origin = camera.view.inverse().w_axis.truncate();
         let mut record = ViewRecord::zeroed();
         self.kept.write(&mut record, origin);
+        sky.write(&mut record);
         let mut hasher =
             ChangeHasher::new(size, camera, scene, &surfaces.lights.sources, &estimator, options);
+        hasher.add_sky(sky);
         for traced in &surfaces.traced {
             let record = &surfaces.records[traced.surface as usize];
             hasher.add(input.frame, traced.draw, record, traced.triangles.hash);

@@ -8,7 +8,9 @@ use super::buffers::{ViewBuffers, sum_groups};
 use super::pipelines::{TracePipelines, pixel_groups, run};
 use super::prepare::PreparedTrace;
 use super::schedule::TraceWork;
+use super::sky::SkyMap;
 use super::structures::Structures;
+use crate::passes::sky;
 
 /// What recording needs.
 pub(crate) struct TraceContext<'a> {
@@ -18,6 +20,7 @@ pub(crate) struct TraceContext<'a> {
     pub(crate) structures: &'a Structures,
     pub(crate) buffers: &'a ViewBuffers,
     pub(crate) prepared: &'a PreparedTrace,
+    pub(crate) sky: Option<&'a SkyMap>,
 }
 
 impl TraceContext<'_> {
@@ -41,6 +44,21 @@ impl TraceContext<'_> {
             }
             TraceWork::Reference(view) => {
                 pipelines.reference.run(self.commands, self.table, &push(view), self.buffers.size);
+                return;
+            }
+            // Draws are recorded by the raster pass.
+            TraceWork::DrawSky => return,
+            TraceWork::CopySky => {
+                if let Some(map) = self.sky {
+                    sky::record_copy(self.commands, map);
+                }
+                return;
+            }
+            TraceWork::SkyLevel(level) => {
+                if let (Some(map), Some(sky)) = (self.sky, &self.prepared.sky.prepared) {
+                    let (push, groups) = sky::level(map, sky, level);
+                    self.commands.compute(&pipelines.sky, &[self.table.set()], &push, groups);
+                }
                 return;
             }
             TraceWork::Surface(view) => (&pipelines.surface, push(view), groups),

@@ -8,7 +8,7 @@ use afterglow_records::{SKY_EDGE, SKY_LEVELS};
 use super::pathtrace::{SIZE, Stage, slab};
 use crate::pathtrace::sky::{SIDES, SkyMap};
 use crate::testing::{assert_valid, gpu};
-use crate::{Mode, SkyChoice, TraceCounts};
+use crate::{Backend, Mode, SkyChoice, TraceCounts};
 
 /// What a vertex of the sky is given, by where it is seen from the eye and whether that belongs to the left half.
 type Paint<'a> = &'a dyn Fn(&mut Context, [f32; 3], bool);
@@ -133,13 +133,17 @@ fn assert_shows(stage: &Stage, place: [u32; 2], color: [f32; 4]) {
 
 #[test]
 fn a_mirror_shows_the_sky_that_is_there() {
-    let mut stage = stage(SkyChoice::Cube);
-    draw(&mut stage, &World::default());
-    assert_shows(&stage, LEFT, RED);
-    assert_shows(&stage, RIGHT, GREEN);
-    draw(&mut stage, &World { turned: 180.0, ..World::default() });
-    assert_shows(&stage, LEFT, GREEN);
-    assert_shows(&stage, RIGHT, RED);
+    for backend in [Backend::Software, Backend::Hardware] {
+        let mut stage = Stage::new(Mode::Pathtrace, |options| {
+            (options.keeps_radiance, options.backend) = (true, backend);
+        });
+        draw(&mut stage, &World::default());
+        assert_shows(&stage, LEFT, RED);
+        assert_shows(&stage, RIGHT, GREEN);
+        draw(&mut stage, &World { turned: 180.0, ..World::default() });
+        assert_shows(&stage, LEFT, GREEN);
+        assert_shows(&stage, RIGHT, RED);
+    }
     let mut constant = self::stage(SkyChoice::Constant);
     draw(&mut constant, &World::default());
     assert_eq!(counts(&constant).sky, SkyChoice::Constant);

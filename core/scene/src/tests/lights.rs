@@ -98,5 +98,5 @@ fn the_sky_is_what_was_cleared_to_or_drawn() {
     assert_eq!((painted.mean, painted.least), (scene.sky, Vec3::ZERO));
     assert_eq!((painted.cleared, painted.open), (Vec3::X, Vec3::X), "what was cleared to is seen beside it");
     let draws: Vec<_> = painted.draws.iter().map(|draw| (draw.operation, draw.eye)).collect();
-    assert_eq!(draws, [(sky, glam::DMat4::IDENTITY)]);
+    assert_eq!(draws, [(sky as u32, glam::DMat4::IDENTITY)]);
 }

@@ -75,6 +75,33 @@ impl Baked {
     }
 }
 
+/// What rays see of a sky that the program draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Sky {
+    /// One colour in all directions: its mean
+    Constant,
+    /// What is drawn in each direction
+    Cube,
+}
+
+impl Sky {
+    /// As the renderer has it.
+    pub fn choice(self) -> render::SkyChoice {
+        match self {
+            Sky::Constant => render::SkyChoice::Constant,
+            Sky::Cube => render::SkyChoice::Cube,
+        }
+    }
+
+    /// As AFTERGLOW_SKY has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Sky::Constant => "constant",
+            Sky::Cube => "cube",
+        }
+    }
+}
+
 /// What traces rays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Backend {

@@ -16,7 +16,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::failure::{self, Failure};
 use crate::options::{
     Baked, DeviceArguments, Frames, ImageArguments, KeepArguments, LightArguments, Mode, ProfileArguments,
-    Size,
+    Size, Sky,
 };
 use crate::output;
 use report::Report;
@@ -62,6 +62,9 @@ pub struct Arguments {
     /// What becomes of light that is baked into the world, where its sources are found
     #[arg(long, value_enum, value_name = "HOW", default_value = "auto", env = "AFTERGLOW_BAKED")]
     pub baked: Baked,
+    /// What rays see of the sky that the program draws
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "cube", env = "AFTERGLOW_SKY")]
+    pub sky: Sky,
     /// Show what the light is made of instead of the picture
     #[arg(long, value_enum, value_name = "VIEW")]
     paint: Option<View>,
@@ -115,6 +118,7 @@ impl Arguments {
         // Frames wait for it, so that a trace always gives the same pictures.
         options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
         options.replacing = self.baked.replacing();
+        options.sky = self.sky.choice();
         options.profile = self.profile.load_for_trace(&self.trace)?;
         let folder = self.images.folder(options.profile.as_deref())?;
         options.images = folder.map(|folder| ImageOptions { folder, waits: true });
@@ -145,6 +149,8 @@ enum View {
     Direct,
     /// Indirect light.
     Indirect,
+    /// The sky as rays see it, in all directions: longitude to the right, latitude of the world's y axis upward.
+    Sky,
 }
 
 impl View {
@@ -155,6 +161,7 @@ impl View {
             View::Albedo => Paint::Albedo,
             View::Direct => Paint::Direct,
             View::Indirect => Paint::Indirect,
+            View::Sky => Paint::Sky,
         }
     }
 }

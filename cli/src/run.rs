@@ -13,7 +13,7 @@ use clap::Args;
 use crate::failure::Failure;
 use crate::libdir;
 use crate::options::{
-    Backend, Baked, DeviceArguments, ImageArguments, KeepArguments, Mode, ProfileArguments,
+    Backend, Baked, DeviceArguments, ImageArguments, KeepArguments, Mode, ProfileArguments, Sky,
 };
 
 /// Arguments of `run`.
@@ -37,6 +37,9 @@ pub struct Arguments {
     /// What becomes of light that is baked into the world, where its sources are found
     #[arg(long, value_enum, value_name = "HOW", default_value = "auto", env = "AFTERGLOW_BAKED")]
     baked: Baked,
+    /// What rays see of the sky that the program draws
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "cube", env = "AFTERGLOW_SKY")]
+    sky: Sky,
     #[command(flatten)]
     images: ImageArguments,
     #[command(flatten)]
@@ -106,7 +109,8 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
         .env("AFTERGLOW_BACKEND", arguments.backend.name())
         .env("AFTERGLOW_SEED", arguments.seed.to_string())
         .env("AFTERGLOW_MEMORY", arguments.memory.to_string())
-        .env("AFTERGLOW_BAKED", arguments.baked.name());
+        .env("AFTERGLOW_BAKED", arguments.baked.name())
+        .env("AFTERGLOW_SKY", arguments.sky.name());
     if let Some(mode) = arguments.mode {
         command.env("AFTERGLOW_MODE", mode.name());
     }

@@ -6,7 +6,7 @@ use std::sync::{Arc, Once};
 
 use afterglow_engine::EngineOptions;
 use afterglow_gpu::{Faults, GpuOptions};
-use afterglow_render::{Backend, ImageOptions, Mode, PathtraceOptions};
+use afterglow_render::{Backend, ImageOptions, Mode, PathtraceOptions, SkyChoice};
 use afterglow_scene::{Profile, ProfileChoice, ProgramCache, Replacing};
 use tracing::level_filters::LevelFilter;
 
@@ -18,6 +18,7 @@ const MOST_SAMPLES: u32 = 65536;
 /// How to render: `AFTERGLOW_MODE` (`raster` or `pathtrace`), `AFTERGLOW_DEVICE`, `AFTERGLOW_VALIDATION`,
 /// `AFTERGLOW_SPP`, `AFTERGLOW_SEED`, `AFTERGLOW_MEMORY` (MiB of the undrawn world), `AFTERGLOW_KEEP` (worlds are kept
 /// for the next run, which they are unless it says no), `AFTERGLOW_BAKED` (`auto`, `keep` or `replace` baked light),
+/// `AFTERGLOW_SKY` (rays see a `constant` sky, or a `cube` of what is drawn),
 /// `AFTERGLOW_REPLACE_IMAGES` (a folder), `AFTERGLOW_BACKEND` (`auto`, `software` or `hardware` traces rays),
 /// `AFTERGLOW_HUD` and `AFTERGLOW_PROFILE`. A value that is not understood is logged and counts as absent.
 ///
@@ -45,6 +46,7 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
         pathtrace.memory_bytes = u64::from(mebibytes) << 20;
     }
     pathtrace.replacing = parsed(variable, "AFTERGLOW_BAKED", replacing).unwrap_or(pathtrace.replacing);
+    pathtrace.sky = parsed(variable, "AFTERGLOW_SKY", sky).unwrap_or(pathtrace.sky);
     if parsed(variable, "AFTERGLOW_KEEP", flag).unwrap_or(true) {
         pathtrace.cache = cache();
     }
@@ -127,6 +129,14 @@ fn backend(value: &str) -> Option<Option<Backend>> {
         "auto" => Some(None),
         "software" => Some(Some(Backend::Software)),
         "hardware" => Some(Some(Backend::Hardware)),
+        _ => None,
+    }
+}
+
+fn sky(value: &str) -> Option<SkyChoice> {
+    match value {
+        "constant" => Some(SkyChoice::Constant),
+        "cube" => Some(SkyChoice::Cube),
         _ => None,
     }
 }

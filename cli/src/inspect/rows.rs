@@ -20,6 +20,8 @@ pub struct FrameRows {
     relight: Option<Relight>,
     /// Linear.
     sky: [f32; 3],
+    /// Draws that show it about the eye, each direction in its own colour.
+    sky_draws: usize,
     /// Its colours are baked light.
     baked: bool,
     draws: Vec<Row>,
@@ -71,6 +73,7 @@ impl FrameRows {
             lights: scene.lights.iter().map(Light::from).collect(),
             relight: scene.relight.as_ref().map(Relight::from),
             sky: scene.sky.into(),
+            sky_draws: scene.painted_sky.as_ref().map_or(0, |sky| sky.draws.len()),
             baked: scene.baked,
             draws: frame.draws().zip(&scene.verdicts).enumerate().map(row).collect(),
         }
@@ -90,6 +93,9 @@ impl FrameRows {
         for light in &self.lights {
             writeln!(out, "  {light}")?;
         }
+        let [red, green, blue] = self.sky;
+        let drawn = if self.sky_draws > 0 { format!(", {} draws", self.sky_draws) } else { String::new() };
+        writeln!(out, "  sky {red:.3} {green:.3} {blue:.3}{drawn}")?;
         writeln!(
             out,
             "{:>5} {:<11} {:<16} {:>9} {:>5}  {:<29} {:<16}  reason; state",

@@ -37,6 +37,10 @@ struct Frame {
     lights: Vec<Light>,
     /// Once the sources of baked light were searched.
     relight: Option<Relight>,
+    /// What rays saw of the sky; none if the frame was not traced.
+    sky: Option<&'static str>,
+    /// Times that the sky was drawn for rays so far.
+    sky_drawings: usize,
     passes: Vec<Pass>,
     culled: Vec<CulledReport>,
     bytes: Bytes,
@@ -107,6 +111,8 @@ impl Report {
             triangles: scene.map(|scene| scene.triangles.named().into()).unwrap_or_default(),
             lights: scene.map(|scene| scene.lights.iter().map(Light::from).collect()).unwrap_or_default(),
             relight: scene.and_then(|scene| scene.relight.as_ref()).map(Relight::from),
+            sky: rendered.traced.map(|traced| traced.sky.name()),
+            sky_drawings: rendered.traced.map_or(0, |traced| traced.sky_drawings),
             passes: rendered.passes.iter().map(Pass::from).collect(),
             culled: rendered.culled.clone(),
             bytes: Bytes {

@@ -191,6 +191,9 @@ shared_struct! {
         pub movers: u64,
         /// [`Exposure`].
         pub exposure: u64,
+        /// What the program draws behind everything, by direction: four f32 a texel, of [`SKY_LEVELS`] levels (see sky.glsl).
+        /// 0 where the sky is the same everywhere.
+        pub sky_map: u64,
         /// Pixels.
         pub width: u32,
         pub height: u32,
@@ -224,8 +227,11 @@ shared_struct! {
         /// Samples a pixel that [`ViewRecord::light`] holds already.
         pub accumulated: u32,
         pub seed: u32,
-        /// Radiance of the sky.
+        /// Radiance of the sky, its mean where there is a map.
         pub sky: [f32; 3],
+        /// What the map holds is at least so much light, and then this many times as much.
+        pub sky_least: [f32; 3],
+        pub sky_scale: [f32; 3],
         /// How far moving things darken surfaces with baked light.
         pub contact_reach: f32,
         /// Ambient light of the program.
@@ -389,6 +395,29 @@ shared_struct! {
     }
 }
 
+shared_struct! {
+    /// Push constants of the passes that make the map of the sky.
+    pub struct SkyPush {
+        /// What was drawn, four bytes a texel, side by side.
+        pub drawn: u64,
+        /// As [`ViewRecord::sky_map`].
+        pub map: u64,
+        /// Linear RGB where nothing is drawn.
+        pub open: [f32; 3],
+        /// Which level is made.
+        pub level: u32,
+        /// 1 if the map holds what earlier frames have drawn.
+        pub remembers: u32,
+        pub padding: u32,
+    }
+}
+
+/// Texels along a side of the finest level of a sky's map: two thirds of a degree each.
+pub const SKY_EDGE: u32 = 128;
+/// Levels of a sky's map, each half as fine as the one before. The last one has 4 texels along a side: light of fewer
+/// directions would come from behind the horizon.
+pub const SKY_LEVELS: u32 = 6;
+
 /// How light is found for a pixel, as `SurfaceDraw::kind` holds it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
@@ -422,6 +451,8 @@ pub enum Paint {
     Direct = 4,
     /// Indirect light.
     Indirect = 5,
+    /// The sky as rays see it, in all directions: longitude to the right, latitude of the world's y axis upward.
+    Sky = 6,
 }
 
 /// Bits of a hit's primitive below the member's number.

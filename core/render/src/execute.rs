@@ -12,6 +12,7 @@ use crate::passes::copy::{self, FlipRecords};
 use crate::passes::raster::{self, RasterFrame, RasterPass, RasterView};
 use crate::passes::readback::{Question, Readback};
 use crate::passes::{pixels, transfers};
+use crate::pathtrace::schedule::TraceWork;
 use crate::pathtrace::{self, PreparedTrace, TraceContext, TraceInput, Tracing, Understood};
 use crate::plan::{Plan, Planner, Step};
 use crate::rectangles::PixelStore;
@@ -135,6 +136,7 @@ impl Renderer {
                 buffers,
                 world: [tracer.world_state, tracer.lists_state],
                 prepared,
+                sky: tracer.sky.as_ref().filter(|_| prepared.sky.is_mapped()),
             }),
             _ => None,
         };
@@ -267,6 +269,11 @@ impl Renderer {
             bound[views.visibility.index()] = Bound::Image(&buffers.visibility.image);
             bound[views.albedo.index()] = Bound::Image(&buffers.albedo.image);
         }
+        let map = self.tracer.as_ref().and_then(|tracer| tracer.sky.as_ref());
+        let sky = prepared.schedule.views.as_ref().and_then(|views| views.sky);
+        if let (Some(sky), Some(map)) = (sky, map) {
+            bound[sky.sides.index()] = Bound::Image(&map.sides.image);
+        }
         bound
     }
 
@@ -347,6 +354,7 @@ impl Renderer {
             Work::AccumulateRead(item) => item.record_read(commands, target, store),
             Work::Accumulate(item) => self.accumulator.record(commands, item, store),
             Work::AccumulateWrite(item) => item.record_write(commands, target, store),
+            Work::Trace(TraceWork::DrawSky) => self.draw_sky(commands, frame, prepared)?,
             Work::Trace(work) => {
                 let tracer = self.tracer.as_ref();
                 let buffers = tracer.and_then(|tracer| tracer.buffers.as_ref());
@@ -359,6 +367,7 @@ impl Renderer {
                         lists: &tracer.lists,
                         buffers,
                         prepared: traced,
+                        sky: tracer.sky.as_ref(),
                     };
                     context.record(*work);
                 }
@@ -370,6 +379,37 @@ impl Renderer {
             }
         }
         Ok(())
+    }
+
+    /// Draws the sky as rays see it.
+    fn draw_sky(
+        &mut self,
+        commands: &Commands<'_>,
+        frame: &Frame,
+        prepared: &Prepared,
+    ) -> Result<(), GpuError> {
+        let map = self.tracer.as_ref().and_then(|tracer| tracer.sky.as_ref());
+        let sky = prepared.traced.as_ref().and_then(|traced| traced.sky.prepared.as_ref());
+        let (Some(map), Some(sky)) = (map, sky) else { return Ok(()) };
+        let mut pass = RasterPass {
+            commands,
+            input: RasterFrame {
+                gpu: &self.gpu,
+                frame,
+                target: &self.target,
+                textures: &self.textures,
+                replacements: self.replacements.as_ref(),
+                table: &self.table,
+                address: sky.record,
+                draws: &self.scratch.commands,
+                rectangles: &self.rectangles,
+                view: None,
+            },
+            state: &mut self.raster,
+            pool: &mut self.slots[self.current].pool,
+            bound: raster::Bound::default(),
+        };
+        pass.record_sky(sky, map)
     }
 
     /// Counts what the frame took, of which so many operations were rasterized.

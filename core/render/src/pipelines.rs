@@ -13,6 +13,9 @@ use crate::target::{COLOR_FORMAT, DepthFormat};
 /// Constants beside the state words: layout, topology, clamps.
 const OTHER_CONSTANTS: usize = 3;
 
+/// Mask of the views that are the sides of a cube.
+pub(crate) const ALL_SIDES: u32 = 0b11_1111;
+
 /// Which shaders a pipeline is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Program {
@@ -22,6 +25,10 @@ pub(crate) enum Program {
     Pixels,
     /// A clear that is drawn.
     Clear,
+    /// Vertices, on all sides of the cube of the sky at once.
+    Sky,
+    /// The same on one side.
+    SkySide,
 }
 
 /// Whether a pipeline draws to the visibility buffer beside the window.
@@ -59,6 +66,9 @@ struct Modules {
     pixels_fragment: ShaderModule,
     clear: ShaderModule,
     clear_fragment: ShaderModule,
+    /// None where the device has no multiview.
+    sky: Option<ShaderModule>,
+    sky_side: ShaderModule,
 }
 
 /// All pipelines that draw to the window.
@@ -123,6 +133,8 @@ impl Pipelines {
             Program::Draw => (&modules.draw, &modules.draw_fragment),
             Program::Pixels => (&modules.pixels, &modules.pixels_fragment),
             Program::Clear => (&modules.clear, &modules.clear_fragment),
+            Program::Sky => (modules.sky.as_ref().unwrap_or(&modules.sky_side), &modules.draw_fragment),
+            Program::SkySide => (&modules.sky_side, &modules.draw_fragment),
         };
         let (vertex, fragment) = match (key.program, key.visibility) {
             (Program::Draw, Visibility::Kept | Visibility::Written) => {
@@ -180,13 +192,18 @@ impl Pipelines {
         let dynamic_states = self.dynamic_states();
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
         let color_formats = [COLOR_FORMAT, VISIBILITY_FORMAT, COLOR_FORMAT];
+        let depth_format = match key.program {
+            Program::Sky | Program::SkySide => vk::Format::UNDEFINED,
+            Program::Draw | Program::Pixels | Program::Clear => self.depth_format.vulkan,
+        };
         let mut rendering = vk::PipelineRenderingCreateInfo::default()
+            .view_mask(if key.program == Program::Sky { ALL_SIDES } else { 0 })
             .color_attachment_formats(&color_formats[..count])
-            .depth_attachment_format(self.depth_format.vulkan)
-            .stencil_attachment_format(self.depth_format.vulkan);
+            .depth_attachment_format(depth_format)
+            .stencil_attachment_format(depth_format);
         let layout = match key.program {
             Program::Clear => &self.clear_layout,
-            Program::Draw | Program::Pixels => &self.draw_layout,
+            Program::Draw | Program::Pixels | Program::Sky | Program::SkySide => &self.draw_layout,
         };
         let info = vk::GraphicsPipelineCreateInfo::default()
             .stages(stages)
@@ -274,6 +291,8 @@ impl Modules {
             pixels_fragment: module("pixels.frag", shaders::PIXELS_FRAG)?,
             clear: module("clear.vert", shaders::CLEAR_VERT)?,
             clear_fragment: module("clear.frag", shaders::CLEAR_FRAG)?,
+            sky: gpu.features().multiview.then(|| module("sky.vert", shaders::SKY_VERT)).transpose()?,
+            sky_side: module("sky side.vert", shaders::SKY_SIDE_VERT)?,
         })
     }
 }

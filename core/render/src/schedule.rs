@@ -12,6 +12,7 @@ use crate::passes::readback::Question;
 use crate::pathtrace::PreparedTrace;
 use crate::pathtrace::buffers::ViewBuffers;
 use crate::pathtrace::schedule::{TraceWork, ViewResources, declare_view};
+use crate::pathtrace::sky::SkyMap;
 use crate::plan::{Plan, RasterStep, Step};
 use crate::target::Target;
 
@@ -83,6 +84,8 @@ pub(crate) struct TracedViews<'a> {
     /// How the last frame left the world's meshes, and the lists.
     pub(crate) world: [ResourceState; 2],
     pub(crate) prepared: &'a PreparedTrace,
+    /// The map of the sky, if rays look at it.
+    pub(crate) sky: Option<&'a SkyMap>,
 }
 
 /// Declares and compiles the passes of a frame. `has_first` says whether its first step has anything to do.
@@ -117,7 +120,8 @@ pub(crate) fn schedule(
     }
     let views = traced.map(|traced| {
         let prepared = traced.prepared;
-        ViewResources::declare(&mut graph, traced.buffers, traced.world, prepared.backend, prepared.parity)
+        let (backend, parity) = (prepared.backend, prepared.parity);
+        ViewResources::declare(&mut graph, traced.buffers, traced.world, backend, parity, traced.sky)
     });
     let mut declaring =
         Declaring { graph, resources, views, begun: None, work: Vec::with_capacity(plan.steps.len() + 1) };

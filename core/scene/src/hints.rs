@@ -43,6 +43,7 @@ pub fn apply(frame: &Frame, scene: &mut Scene, places: &mut Places) {
     }
     if let Some(sky) = frame.scene_hints.sky {
         scene.sky = bounded(sky);
+        scene.painted_sky = None;
     }
     scene.cut = frame.scene_hints.cut;
 }

@@ -213,10 +213,13 @@ impl Recovery {
         let baked = lights.is_empty() && baked_share(&verdicts) > 0.5;
         let mut sky =
             sky::color(frame, draws, transforms, &verdicts, &self.images, background).unwrap_or(Vec3::ZERO);
+        let mut painted_sky = sky::painted(draws, transforms, &verdicts, background, sky);
         let up = self.up(world);
         if self.daylight.is_needed(!lights.is_empty(), self.tracker.epoch) && !baked {
             lights.push(lights::fallback_sun(up));
-            sky = sky.max(FALLBACK_SKY * 0.5);
+            let least = FALLBACK_SKY * 0.5;
+            sky = sky.max(least);
+            painted_sky.iter_mut().for_each(|painted| painted.least = least);
         }
         Scene {
             camera: Some(Camera { view: world.view, projection: world.perspective.projection.as_mat4() }),
@@ -224,6 +227,7 @@ impl Recovery {
             deformed: Vec::new(),
             lights,
             sky,
+            painted_sky,
             ambient,
             baked,
             relight: None,

@@ -1,4 +1,4 @@
-//! The colour of what is behind everything.
+//! What is behind everything: its mean colour, and the draws that show it.
 
 use std::f32::consts::PI;
 
@@ -9,7 +9,7 @@ use crate::color::linear_from_srgb;
 use crate::draws::{DrawFacts, TransformFacts};
 use crate::geometry::{Attribute, mean_color};
 use crate::images::Images;
-use crate::types::{Class, Verdict};
+use crate::types::{Class, PaintedSky, SkyDraw, Verdict};
 
 /// Triangles of a draw whose solid angle is measured, at most.
 const MEASURED: usize = 256;
@@ -34,6 +34,32 @@ pub fn color(
     }
     let cleared = background.map(|[r, g, b, _]| Vec3::new(r, g, b));
     sky.over(cleared).map(linear_from_srgb)
+}
+
+/// The brightest colour that counts as black, sRGB.
+const BLACK: f32 = 0.05;
+
+/// The sky as it is seen in each direction, if the program draws one about the eye: pictures that are drawn flat behind the
+/// world have no directions, points and lines no size. `mean` is what [`color`] found.
+pub fn painted(
+    draws: &[DrawFacts],
+    transforms: &[TransformFacts],
+    verdicts: &[Verdict],
+    background: Option<[f32; 4]>,
+    mean: Vec3,
+) -> Option<PaintedSky> {
+    let sky = draws.iter().zip(verdicts).filter(|(facts, verdict)| {
+        let transform = &transforms[facts.transform];
+        let is_about_eye = transform.perspective.is_some() && transform.sound;
+        verdict.class == Class::Sky && facts.writes_color && facts.triangles > 0 && is_about_eye
+    });
+    let draws: Vec<_> = sky
+        .map(|(facts, _)| SkyDraw { operation: facts.operation, eye: transforms[facts.transform].eye })
+        .collect();
+    let cleared = background.map_or(Vec3::ZERO, |[r, g, b, _]| Vec3::new(r, g, b));
+    // Black is what nobody has thought of, where a sky is drawn over it.
+    let open = if cleared.max_element() > BLACK { linear_from_srgb(cleared) } else { mean };
+    (!draws.is_empty()).then_some(PaintedSky { draws, cleared, mean, open, least: Vec3::ZERO })
 }
 
 /// Mean colour (sRGB) of the directions painted so far, and their share of all directions.

@@ -288,6 +288,30 @@ impl Scene {
     }
 }
 
+/// A draw of the sky.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SkyDraw {
+    /// Index of the operation.
+    pub operation: u32,
+    /// Object to eye space.
+    pub eye: DMat4,
+}
+
+/// A sky that the program draws about the eye.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PaintedSky {
+    /// Its draws, in the frame's order: triangles, each over those before it.
+    pub draws: Vec<SkyDraw>,
+    /// What the first of them is drawn over, sRGB.
+    pub cleared: Vec3,
+    /// Its mean, linear RGB.
+    pub mean: Vec3,
+    /// What is seen where nothing is drawn, linear RGB: what was cleared to, or the mean where that was black or nothing.
+    pub open: Vec3,
+    /// Radiance that it has at least in each direction, linear RGB: worlds without lights are not left dark.
+    pub least: Vec3,
+}
+
 /// A frame, understood.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
@@ -299,8 +323,10 @@ pub struct Scene {
     pub deformed: Vec<Deformed>,
     /// The lights. Empty when the program's baked light is the light, or those that it was found to come from.
     pub lights: Vec<SceneLight>,
-    /// Linear RGB from every direction that sees no surface.
+    /// Linear RGB from every direction that sees no surface: the mean over them, where they differ.
     pub sky: Vec3,
+    /// How they differ; none where the program draws no sky about the eye, or something else has said what it is like.
+    pub painted_sky: Option<PaintedSky>,
     /// Ambient light of the program's lights and light model, linear RGB: what bounces would have made.
     pub ambient: Vec3,
     /// The world shows baked light (lightmaps, vertex colours) and has no light sources of its own.

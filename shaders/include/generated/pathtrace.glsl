@@ -78,7 +78,7 @@ struct LightNode { // 64 bytes
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 392 bytes
+struct ViewRecord { // 424 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
@@ -96,6 +96,7 @@ struct ViewRecord { // 392 bytes
     uint64_t sums;
     uint64_t movers;
     uint64_t exposure;
+    uint64_t sky_map;
     uint width;
     uint height;
     uint visibility;
@@ -115,6 +116,8 @@ struct ViewRecord { // 392 bytes
     uint accumulated;
     uint seed;
     vec3 sky;
+    vec3 sky_least;
+    vec3 sky_scale;
     float contact_reach;
     vec3 ambient;
     uint paint;
@@ -232,6 +235,18 @@ struct RefitPush { // 64 bytes
 };
 #endif
 
+#ifndef STRUCT_SkyPush
+#define STRUCT_SkyPush
+struct SkyPush { // 40 bytes
+    uint64_t drawn;
+    uint64_t map;
+    vec3 open;
+    uint level;
+    uint remembers;
+    uint padding;
+};
+#endif
+
 #define BLEND_WORDS 1
 #define BLEND_ENABLED_WORD 0
 #define blend_enabled(w) (((w) >> 0) & 0x1u)
@@ -264,6 +279,8 @@ struct RefitPush { // 64 bytes
 #define MEMBER_OF_LIGHTS 2147483648u
 #define NO_LIGHT 4294967295u
 #define NO_TRAIL 4294967295u
+#define SKY_EDGE 128u
+#define SKY_LEVELS 6u
 #define TRACE_INDEPENDENT 1u
 #define TRACE_ROULETTE 8u
 #define TRACE_PARALLEL 16u
@@ -282,6 +299,7 @@ struct RefitPush { // 64 bytes
 #define PAINT_ALBEDO 3u
 #define PAINT_DIRECT 4u
 #define PAINT_INDIRECT 5u
+#define PAINT_SKY 6u
 
 #define BLEND_FACTOR_ZERO 0u
 #define BLEND_FACTOR_ONE 1u

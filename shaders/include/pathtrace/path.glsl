@@ -14,6 +14,7 @@
 #include "light_tree.glsl"
 #include "point.glsl"
 #include "random.glsl"
+#include "sky.glsl"
 
 // Dimensions of a surface's numbers: the next ray, the far light, then those of each asked light.
 #define DIMENSIONS 32u
@@ -47,10 +48,12 @@ struct Channels {
     vec3 specular;
     // What reaches the pixel of a radiance that is where the diffuse lobe's first ray has met nothing; 0 if it has.
     vec3 open;
+    // The sky's light that comes so.
+    vec3 sky;
 };
 
 Channels no_channels() {
-    return Channels(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    return Channels(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
 }
 
 struct Path {
@@ -341,11 +344,13 @@ void go_on(ViewRecord view, inout Path path, RayPlan plan, bool met, Hit hit, in
         path.is_over = true;
         if (plan.is_worth_it) {
             add_found(path, plan, far_radiance(view, path, plan), true, channels);
-            // At the first surface the includer knows what there is where nothing is.
+            vec3 sky = sky_radiance(view, plan.direction, plan.density);
+            // At the first surface the includer knows what else there is where nothing is.
             if (is_first && !plan.is_specular) {
                 channels.open += plan.diffuse;
+                channels.sky += plan.diffuse * sky;
             } else {
-                add_found(path, plan, view.sky + view.ambient, false, channels);
+                add_found(path, plan, sky + view.ambient, false, channels);
             }
         }
         return;

@@ -21,6 +21,7 @@ TEXELS(RadianceTexels, RadianceTexel);
 TEXELS(Reservoirs, ReservoirTexel);
 TEXELS(Counters, TraceCounters);
 TEXELS(ColorTexels, vec4);
+TEXELS(SkyTexels, vec4);
 TEXELS(ExposureSums, ExposureSum);
 TEXELS(MoverSums, MoverSum);
 TEXELS(ExposureBuffer, Exposure);

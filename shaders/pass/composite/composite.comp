@@ -1,6 +1,7 @@
 // Traced light in place of the program's own, as 8-bit colour; alpha and what is not traced stay.
 #version 460
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_nonuniform_qualifier : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
@@ -8,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "pathtrace/resolve.glsl"
+#include "pathtrace/sky.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -73,17 +75,31 @@ vec3 composited(ViewRecord view, SurfaceTexel surface, LightTexel light, vec3 in
     return kind == SURFACE_BAKED_MOVER ? mix(program, shown, MOVER_TRACED) : shown;
 }
 
+// The sky in the direction that a pixel stands for in a picture of all directions.
+vec3 painted_directions(ViewRecord view, uvec2 pixel) {
+    vec2 at = (vec2(pixel) + 0.5) / vec2(view_size(view));
+    float longitude = (2.0 * at.x - 1.0) * 3.14159265;
+    float latitude = (0.5 - at.y) * 3.14159265;
+    vec3 direction = vec3(cos(latitude) * sin(longitude), sin(latitude), -cos(latitude) * cos(longitude));
+    return srgb_from_linear(min(sky_at(view, direction, 0u), 1.0));
+}
+
 void main() {
     ViewRecord view = ViewTable(push.view).entries[0];
     uvec2 pixel = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(pixel, view_size(view)))) {
         return;
     }
+    if (view.paint == PAINT_SKY) {
+        imageStore(color_images[view.color], ivec2(pixel), vec4(painted_directions(view, pixel), 1.0));
+        return;
+    }
     uint index = pixel.y * view.width + pixel.x;
     SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
     if (surface_kind(surface) == SURFACE_NONE) {
         if (view.radiance != 0ul) {
-            RadianceTexels(view.radiance).entries[index] = RadianceTexel(view.sky, vec3(0.0));
+            vec3 direction = view.pixel_origin + view.pixel_right * float(pixel.x) + view.pixel_down * float(pixel.y);
+            RadianceTexels(view.radiance).entries[index] = RadianceTexel(sky_at(view, direction, 0u), vec3(0.0));
         }
         return;
     }

@@ -91,6 +91,7 @@ void add_sample(ViewRecord view, Channels light, inout Channels sums) {
     sums.indirect += limited(view, light.indirect);
     sums.specular += limited(view, light.specular);
     sums.open += light.open;
+    sums.sky += light.sky;
 }
 
 // The ray of a path's stage. Where lights are kept over time, the first surface asks by those.
@@ -176,15 +177,17 @@ LightTexel found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel) {
     Channels light = sums.light;
     // What is baked has its constant part everywhere; elsewhere it comes from where nothing is.
     bool is_replaced = kind == SURFACE_LIT && is_relit(view);
-    vec3 open = is_replaced ? view.sky : view.sky + view.ambient;
+    // Catchers show how much of the mean light they get.
+    vec3 open = kind == SURFACE_CATCHER ? light.open * view.sky : light.sky;
+    open += is_replaced ? vec3(0.0) : light.open * view.ambient;
     if (is_replaced) {
         light.indirect = light.indirect * view.bounce + samples * view.ambient;
     }
     if (kind == SURFACE_BAKED_MOVER) {
         // Where nothing was met there may be walls that were not drawn: it is no darker there than elsewhere.
-        open = max(open, light.indirect / max(samples - light.open, 1.0));
+        open = max(open, light.open * light.indirect / max(samples - light.open, 1.0));
     }
-    light.indirect += light.open * open;
+    light.indirect += open;
     if (kind == SURFACE_BAKED_MOVER) {
         // Few samples and many lights: it is smoothed with the rest.
         light.indirect += light.direct;

@@ -11,6 +11,9 @@
 #include "fixed/specialized.glsl"
 #include "fixed/texgen.glsl"
 #include "fixed/transform.glsl"
+#ifdef SKY_SIDE
+#include "pathtrace/cube.glsl"
+#endif
 
 layout(push_constant, scalar) uniform Push { DrawPush push; };
 
@@ -77,7 +80,13 @@ void main() {
     vec3 normal_object = fetch_attribute(vertex, VERTEX_LAYOUT, SLOT_NORMAL, current.entries[draw.current].normal).xyz;
 
     TransformTable transforms = TransformTable(frame.transforms);
-    gl_Position = vulkan_clip(transforms.entries[draw.transform].modelview_projection * position_object);
+    vec4 clip = transforms.entries[draw.transform].modelview_projection * position_object;
+#ifdef SKY_SIDE
+    // The matrix leads to the world's axes about the eye.
+    gl_Position = side_clip(uint(SKY_SIDE), clip.xyz);
+#else
+    gl_Position = vulkan_clip(clip);
+#endif
     vec4 position_eye = transforms.entries[draw.transform].modelview * position_object;
     vec3 position = dehomogenized(position_eye);
     vec3 normal = normal_eye(state, transforms.entries[draw.transform].normal, normal_object);

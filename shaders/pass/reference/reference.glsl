@@ -41,7 +41,7 @@ void take_camera_ray(ViewRecord view, RayPlan plan, bool met, Hit hit, inout Sam
         own.is_on_path = true;
         return;
     }
-    own.seen = view.sky;
+    own.seen = sky_at(view, plan.direction, 0u);
     for (uint i = 0u; i < view.far_count; ++i) {
         LightSource light = light_source(view, i);
         own.seen += light.radius > 0.0 && sees_far(light, plan.direction) ? light.color / (light.radius * light.radius) : vec3(0.0);
@@ -106,7 +106,7 @@ void main() {
         }
         if (own.path.is_over) {
             Channels light = own.channels;
-            vec3 radiance = own.seen + light.direct + light.indirect + light.specular + light.open * view.sky;
+            vec3 radiance = own.seen + light.direct + light.indirect + light.specular + light.sky;
             ++random.random.sample_index;
             add_radiance(view, radiance, random.random.sample_index, texel);
             own = new_sample(view);

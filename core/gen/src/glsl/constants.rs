@@ -45,7 +45,7 @@ pub fn record_enumerations() -> String {
 pub fn surface_enumerations() -> String {
     [
         constants!(SurfaceKind, "SURFACE": None, Lit, Catcher, Baked, BakedMover),
-        constants!(Paint, "PAINT": Picture, Kind, Normal, Albedo, Direct, Indirect),
+        constants!(Paint, "PAINT": Picture, Kind, Normal, Albedo, Direct, Indirect, Sky),
         constants!(BlendFactor, "BLEND_FACTOR":
             Zero, One, SourceColor, OneMinusSourceColor, DestinationColor, OneMinusDestinationColor, SourceAlpha,
             OneMinusSourceAlpha, DestinationAlpha, OneMinusDestinationAlpha, SourceAlphaSaturate, ConstantColor,

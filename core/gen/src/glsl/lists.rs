@@ -59,5 +59,6 @@ pub fn pathtrace() -> Vec<StructDescription> {
         Exposure,
         ViewPush,
         RefitPush,
+        SkyPush,
     ]
 }

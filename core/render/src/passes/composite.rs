@@ -19,6 +19,9 @@ pub(crate) fn declare(
         .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)
         .read_write(frame.color, Access::StorageWriteCompute)
         .when(!needs.is_idle, IDLE_REASON);
+    if let Some(sky) = &views.sky {
+        pass.read(sky.texels, Access::StorageReadCompute);
+    }
     if let Some(radiance) = views.radiance {
         pass.write(radiance, Access::StorageWriteCompute);
     }

@@ -26,6 +26,9 @@ pub(crate) fn declare(
         .read_write(views.counters, views.backend.writes())
         .write(views.indirect[0], views.backend.writes())
         .when(!needs.is_idle, IDLE_REASON);
+    if let Some(sky) = &views.sky {
+        pass.read(sky.texels, views.backend.reads());
+    }
     if let (Some([reservoirs, _]), Ok(())) = (views.reservoirs, needs.keeps_lights) {
         pass.read(reservoirs, views.backend.reads());
     }

@@ -13,5 +13,6 @@ pub(crate) mod raster;
 pub(crate) mod readback;
 pub(crate) mod reference;
 pub(crate) mod reservoir;
+pub(crate) mod sky;
 pub(crate) mod surface;
 pub(crate) mod transfers;

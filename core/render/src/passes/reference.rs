@@ -13,6 +13,9 @@ pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewR
         .read(frame.geometry, views.backend.reads())
         .read(frame.textures, views.backend.reads())
         .read_write(views.counters, views.backend.writes());
+    if let Some(sky) = &views.sky {
+        pass.read(sky.texels, views.backend.reads());
+    }
     match needs.continues {
         true => pass.read_write(radiance, views.backend.writes()),
         false => pass.write(radiance, views.backend.writes()),

@@ -249,6 +249,14 @@ impl Arrangement {
             place.is_some()
         });
         scene.verdicts.sort_by_key(|verdict| verdict.operation);
+        if let Some(sky) = &mut scene.painted_sky {
+            sky.draws.retain_mut(|draw| {
+                let place = places.get(draw.operation as usize).copied().flatten();
+                draw.operation = place.unwrap_or_default();
+                place.is_some()
+            });
+            sky.draws.sort_by_key(|draw| draw.operation);
+        }
     }
 }
 

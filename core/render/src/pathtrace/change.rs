@@ -1,12 +1,14 @@
 //! Whether anything has changed that light depends on: if not, samples go on adding up.
 
 use afterglow_gl::frame::{Draw, Frame, Operation, VertexSource};
-use afterglow_records::{LightSource, SurfaceDraw};
+use afterglow_records::{LightSource, SurfaceDraw, ViewRecord};
 use afterglow_scene::{Camera, Scene};
+use bytemuck::Zeroable;
 use xxhash_rust::xxh3::Xxh3;
 
 use super::estimator::Estimator;
 use super::options::PathtraceOptions;
+use super::sky::SkyUse;
 
 /// Samples of a pixel after which more change nothing that 8 bits show.
 const MOST_SAMPLES: u32 = 1 << 16;
@@ -38,6 +40,16 @@ impl ChangeHasher {
         let without_samples = PathtraceOptions { spp: 0, ..options.clone() };
         hasher.update(format!("{without_samples:?}").as_bytes());
         Self { hasher, last: None }
+    }
+
+    /// Adds the sky where it is not the same everywhere.
+    pub(crate) fn add_sky(&mut self, sky: &SkyUse) {
+        let mut record = ViewRecord::zeroed();
+        sky.write(&mut record);
+        let colors = [record.sky_least, record.sky_scale];
+        self.hasher.update(&[u8::from(sky.is_mapped())]);
+        self.hasher.update(bytemuck::bytes_of(&colors));
+        self.hasher.update(&sky.drawing.to_le_bytes());
     }
 
     /// Adds a surface; what of its tables is the same as the last one's is not hashed again.

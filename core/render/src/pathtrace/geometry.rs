@@ -90,14 +90,14 @@ fn retained_part(frame: &Frame, draw: &Draw) -> Option<RetainedPart> {
 }
 
 /// Positions of a draw's vertices.
-struct PositionReader<'a> {
+pub(super) struct PositionReader<'a> {
     words: &'a [u32],
     stride: usize,
     components: usize,
 }
 
 impl<'a> PositionReader<'a> {
-    fn new(words: &'a [u32], draw: &Draw) -> Self {
+    pub(super) fn new(words: &'a [u32], draw: &Draw) -> Self {
         let components = match draw.layout.format(Slot::Position as usize) {
             Format::F1 => 1,
             Format::F2 => 2,
@@ -109,7 +109,7 @@ impl<'a> PositionReader<'a> {
     }
 
     /// A point at infinity, or one that is not there, is not a number: it makes no triangle.
-    fn position(&self, index: u32) -> [f32; 3] {
+    pub(super) fn position(&self, index: u32) -> [f32; 3] {
         let start = (index as usize).saturating_mul(self.stride);
         let end = start.saturating_add(self.components);
         let Some(words) = self.words.get(start..end) else {

@@ -35,6 +35,8 @@ mod refit;
 mod replaced;
 mod said;
 pub(crate) mod schedule;
+pub(crate) mod sky;
+mod sky_key;
 mod slabs;
 mod staging;
 pub(crate) mod structures;
@@ -45,7 +47,7 @@ mod world;
 
 pub use backend::Backend;
 pub(crate) use gather::TraceInput;
-pub use options::{Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Target};
+pub use options::{Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, SkyChoice, Target};
 #[cfg(feature = "reload")]
 pub(crate) use pipelines::TracePipelines;
 pub use prepare::TraceCounts;

@@ -57,6 +57,26 @@ pub enum LightChoice {
     Uniform,
 }
 
+/// What rays see of a sky that the program draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SkyChoice {
+    /// One colour in all directions: its mean.
+    Constant,
+    /// What is drawn in each direction.
+    #[default]
+    Cube,
+}
+
+impl SkyChoice {
+    /// As reports write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            SkyChoice::Constant => "constant",
+            SkyChoice::Cube => "cube",
+        }
+    }
+}
+
 /// Which traced draws are displaced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Displaced {
@@ -97,6 +117,8 @@ pub struct PathtraceOptions {
     /// Radiance that a sample may bring in each channel in [`Mode::Pathtrace`]; infinite for no limit. What that removes is
     /// counted.
     pub most_radiance: f32,
+    /// What rays see of the sky.
+    pub sky: SkyChoice,
     /// Keep the linear picture, before exposure, for [`Renderer::read_radiance`](crate::Renderer::read_radiance).
     pub keeps_radiance: bool,
     /// Samples a pixel and frame, at least 1.
@@ -143,6 +165,7 @@ impl Default for PathtraceOptions {
             asked: 4,
             keeps_lights: false,
             most_radiance: 16.0,
+            sky: SkyChoice::Cube,
             keeps_radiance: false,
             spp: 2,
             seed: 0,

@@ -1,7 +1,7 @@
 //! The pipelines of a view's passes.
 
 use afterglow_gpu::{BindlessTable, Commands, ComputeDesc, ComputePipeline, Gpu, GpuError};
-use afterglow_records::ViewPush;
+use afterglow_records::{SkyPush, ViewPush};
 use afterglow_shaders as shaders;
 
 use super::backend::Backend;
@@ -12,6 +12,8 @@ const GROUP_EDGE: u32 = 8;
 
 /// One pipeline a pass.
 pub(crate) struct TracePipelines {
+    /// A level of the map of the sky.
+    pub(crate) sky: ComputePipeline,
     pub(crate) surface: ComputePipeline,
     pub(crate) reservoir: ComputePipeline,
     pub(crate) light: Program,
@@ -28,20 +30,22 @@ impl TracePipelines {
     pub(crate) fn new(gpu: &Gpu, table: &BindlessTable, backend: Backend) -> Result<Self, GpuError> {
         backend.require(gpu)?;
         let sets = [table.layout()];
-        let pipeline = |name, spirv| {
+        let with_push = |name, spirv, push_constant_bytes| {
             gpu.create_compute_pipeline(&ComputeDesc {
                 name,
                 spirv: shaders::current(spirv),
                 entry: c"main",
                 specialization: &[],
                 set_layouts: &sets,
-                push_constant_bytes: size_of::<ViewPush>() as u32,
+                push_constant_bytes,
             })
         };
+        let pipeline = |name, spirv| with_push(name, spirv, size_of::<ViewPush>() as u32);
         let program = |name, compute, generation| {
             Program::new(gpu, table, backend, &ProgramDesc { name, compute, generation })
         };
         Ok(Self {
+            sky: with_push("sky map", shaders::SKY_COMP, size_of::<SkyPush>() as u32)?,
             surface: pipeline("surface", shaders::SURFACE_COMP)?,
             reservoir: pipeline("reservoir", shaders::RESERVOIR_COMP)?,
             light: program("light", shaders::LIGHT_COMP, shaders::LIGHT_RGEN)?,

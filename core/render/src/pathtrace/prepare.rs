@@ -13,9 +13,10 @@ use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
 use super::lights::{LightList, highlight};
 use super::lists::{FramePlace, List};
-use super::options::Mode;
+use super::options::{Mode, SkyChoice};
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
+use super::sky::{self, SkyUse};
 use super::tracer::{Tracer, Tracing};
 use super::world::{Traced, World};
 use crate::passes::raster::DrawMark;
@@ -45,6 +46,7 @@ pub(crate) struct PreparedTrace {
     /// Which buffers are this frame's, and which the one's before.
     pub(crate) parity: usize,
     pub(crate) backend: Backend,
+    pub(crate) sky: SkyUse,
     /// The world must be brought to the device.
     pub(crate) has_builds: bool,
     /// Structures there must be moved.
@@ -73,6 +75,18 @@ pub struct TraceCounts {
     pub lights: usize,
     /// Samples a pixel in the first view, earlier frames' included.
     pub samples: usize,
+    /// What rays see of the sky.
+    pub sky: SkyChoice,
+    /// Times that the sky was drawn for rays so far.
+    pub sky_drawings: usize,
+}
+
+/// What rays find in a frame.
+struct Found<'a, 'f> {
+    surfaces: &'a Surfaces<'f>,
+    world: &'a World,
+    sky: &'a SkyUse,
+    lists: &'a ListAddresses,
 }
 
 /// What all views of a frame share.
@@ -114,7 +128,10 @@ pub(crate) fn prepare(
         surfaces.records[traced.surface as usize].reach = *reach;
     }
     let lists = tracer.bring_lists(&surfaces, &world.members, &frame_place, input.arena)?;
-    let common = tracer.common(&input, tracing, camera, &surfaces, &world, &lists, size);
+    let Tracer { sky: map, recovery, options, .. } = &mut *tracer;
+    let sky = sky::prepare(map, recovery, &mut input, &tracing.scene, camera, options.sky)?;
+    let found = Found { surfaces: &surfaces, world: &world, sky: &sky, lists: &lists };
+    let common = tracer.common(&input, tracing, camera, &found, size);
     let program = match tracer.has_camera_rays {
         true => &tracer.pipelines.reference,
         false => &tracer.pipelines.light,
@@ -135,11 +152,13 @@ pub(crate) fn prepare(
         views.push(PreparedView { record, needs });
     }
     tracer.kept.end(camera, origin, &surfaces.lights, keeps_lights);
+    let seen_sky = if sky.is_mapped() { SkyChoice::Cube } else { SkyChoice::Constant };
     Ok(PreparedTrace {
         marks: surfaces.marks,
         views,
         parity,
         backend: tracer.options.backend,
+        sky,
         has_builds: tracer.world.structures().has_work(),
         has_moves: tracer.world.structures().has_moves(),
         has_lists: tracer.lists.has_work(),
@@ -152,6 +171,8 @@ pub(crate) fn prepare(
             waiting: world.waiting,
             lights: common.record.light_count as usize,
             samples: tracer.history.first().map_or(0, |history| history.samples() as usize),
+            sky: seen_sky,
+            sky_drawings: tracer.sky.as_ref().map_or(0, |sky| sky.drawings() as usize),
         },
     })
 }
@@ -184,15 +205,12 @@ impl Tracer {
         })
     }
 
-    #[expect(clippy::too_many_arguments, reason = "a frame is made of these")]
     fn common(
         &self,
         input: &TraceInput<'_>,
         tracing: &Tracing,
         camera: &Camera,
-        surfaces: &Surfaces<'_>,
-        world: &World,
-        lists: &ListAddresses,
+        &Found { surfaces, world, sky, lists }: &Found<'_, '_>,
         size: [u32; 2],
     ) -> Common {
         let (scene, options) = (&tracing.scene, &self.options);
@@ -200,8 +218,10 @@ impl Tracer {
         let origin = camera.view.inverse().w_axis.truncate();
         let mut record = ViewRecord::zeroed();
         self.kept.write(&mut record, origin);
+        sky.write(&mut record);
         let mut hasher =
             ChangeHasher::new(size, camera, scene, &surfaces.lights.sources, &estimator, options);
+        hasher.add_sky(sky);
         for traced in &surfaces.traced {
             let record = &surfaces.records[traced.surface as usize];
             hasher.add(input.frame, traced.draw, record, traced.triangles.hash);

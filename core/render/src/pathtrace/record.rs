@@ -9,7 +9,9 @@ use super::lists::Lists;
 use super::pipelines::{TracePipelines, pixel_groups, run};
 use super::prepare::PreparedTrace;
 use super::schedule::TraceWork;
+use super::sky::SkyMap;
 use super::structures::Structures;
+use crate::passes::sky;
 
 /// What recording needs.
 pub(crate) struct TraceContext<'a> {
@@ -20,6 +22,7 @@ pub(crate) struct TraceContext<'a> {
     pub(crate) lists: &'a Lists,
     pub(crate) buffers: &'a ViewBuffers,
     pub(crate) prepared: &'a PreparedTrace,
+    pub(crate) sky: Option<&'a SkyMap>,
 }
 
 impl TraceContext<'_> {
@@ -58,6 +61,21 @@ impl TraceContext<'_> {
                     self.buffers.size,
                     has_spheres,
                 );
+                return;
+            }
+            // Draws are recorded by the raster pass.
+            TraceWork::DrawSky => return,
+            TraceWork::CopySky => {
+                if let Some(map) = self.sky {
+                    sky::record_copy(self.commands, map);
+                }
+                return;
+            }
+            TraceWork::SkyLevel(level) => {
+                if let (Some(map), Some(sky)) = (self.sky, &self.prepared.sky.prepared) {
+                    let (push, groups) = sky::level(map, sky, level);
+                    self.commands.compute(&pipelines.sky, &[self.table.set()], &push, groups);
+                }
                 return;
             }
             TraceWork::Surface(view) => (&pipelines.surface, push(view), groups),

@@ -1,11 +1,13 @@
 //! The passes that light a view, declared in order.
 
-use afterglow_frame_graph::{GraphBuilder, ResourceId, ResourceState};
+use afterglow_frame_graph::{Format, GraphBuilder, ImageDesc, ResourceDesc, ResourceId, ResourceState};
+use afterglow_records::SKY_EDGE;
 
 use super::backend::Backend;
-use super::buffers::ViewBuffers;
+use super::buffers::{Tracked, ViewBuffers};
 use super::prepare::PreparedTrace;
-use crate::passes::{build, composite, exposure, filter, light, reference, reservoir, surface};
+use super::sky::{SIDES, SkyMap};
+use crate::passes::{build, composite, exposure, filter, light, reference, reservoir, sky, surface};
 use crate::schedule::Resources;
 
 /// What a pass of a view records; the number is the view's.
@@ -15,6 +17,11 @@ pub(crate) enum TraceWork {
     Build,
     Refit,
     ClearCounters,
+    /// The sky on the sides of a cube.
+    DrawSky,
+    CopySky,
+    /// A level of its map.
+    SkyLevel(u32),
     /// Radiance by the camera's own rays.
     Reference(usize),
     Surface(usize),
@@ -62,8 +69,27 @@ pub(crate) enum ExposureUse {
     Shared,
 }
 
+/// What must be done for the sky.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum SkyNews {
+    /// Nothing.
+    None,
+    /// It is drawn, and its map holds nothing yet that would be kept.
+    Begins,
+    /// It is drawn again.
+    Changes,
+}
+
 /// Why nothing is lit in a view that needs no light.
 pub(crate) const IDLE_REASON: &str = "nothing moves among surfaces with baked light";
+
+/// The graph's resources that the sky's map is made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SkyResources {
+    pub(crate) sides: ResourceId,
+    pub(crate) drawn: ResourceId,
+    pub(crate) texels: ResourceId,
+}
 
 /// The graph's resources that belong to views.
 #[derive(Debug, Clone)]
@@ -86,6 +112,8 @@ pub(crate) struct ViewResources {
     pub(crate) movers: ResourceId,
     pub(crate) counters: ResourceId,
     pub(crate) radiance: Option<ResourceId>,
+    /// None where the sky is the same everywhere.
+    pub(crate) sky: Option<SkyResources>,
 }
 
 impl ViewResources {
@@ -96,8 +124,8 @@ impl ViewResources {
         [world, lists]: [ResourceState; 2],
         backend: Backend,
         parity: usize,
+        sky: Option<&SkyMap>,
     ) -> Self {
-        use afterglow_frame_graph::{Format, ImageDesc, ResourceDesc};
         let visibility = &buffers.visibility;
         let visibility_desc = ImageDesc::flat(buffers.size.into(), Format::Rg32Uint);
         let visibility = graph.import("visibility", visibility_desc, visibility.state);
@@ -127,6 +155,7 @@ impl ViewResources {
             movers: import("mover sums", &buffers.movers),
             counters: import("trace counters", &buffers.counters),
             radiance: buffers.radiance.as_ref().map(|radiance| import("radiance", radiance)),
+            sky: sky.map(|sky| SkyResources::declare(graph, sky)),
         };
         graph.output(resources.world);
         graph.output(resources.lists);
@@ -139,10 +168,44 @@ impl ViewResources {
         if let Some(radiance) = resources.radiance {
             graph.output(radiance);
         }
+        if let Some(sky) = resources.sky {
+            graph.output(sky.texels);
+        }
         for light in &resources.light {
             graph.output(*light);
         }
         resources
+    }
+}
+
+impl SkyResources {
+    fn declare(graph: &mut GraphBuilder, sky: &SkyMap) -> Self {
+        let sides = ImageDesc { layers: SIDES, ..ImageDesc::flat((SKY_EDGE, SKY_EDGE), Format::Rgba8Unorm) };
+        let mut buffer = |name, tracked: &Tracked| {
+            graph.import(name, ResourceDesc::Buffer { bytes: tracked.buffer.size() }, tracked.state)
+        };
+        let (drawn, texels) = (buffer("drawn sky", &sky.drawn), buffer("sky map", &sky.texels));
+        Self { sides: graph.import("sky", sides, sky.sides.state), drawn, texels }
+    }
+}
+
+/// Declares the passes that make the map of the sky, of which nothing is recorded where nothing is new.
+fn declare_sky(
+    graph: &mut GraphBuilder,
+    work: &mut Vec<TraceWork>,
+    frame: &Resources,
+    sky: &SkyResources,
+    new: SkyNews,
+) {
+    let is_new = new != SkyNews::None;
+    work.push(TraceWork::DrawSky);
+    sky::declare_draw(graph, frame, sky, is_new);
+    work.push(TraceWork::CopySky);
+    sky::declare_copy(graph, sky, is_new);
+    for level in sky::levels() {
+        work.push(TraceWork::SkyLevel(level));
+        let holds = level > 0 || new != SkyNews::Begins;
+        sky::declare_level(graph, sky, holds, is_new);
     }
 }
 
@@ -156,6 +219,9 @@ pub(crate) fn declare_view(
     prepared: &PreparedTrace,
 ) {
     let needs = &prepared.views[view].needs;
+    if let (0, Some(sky)) = (view, &views.sky) {
+        declare_sky(graph, work, frame, sky, prepared.sky.news());
+    }
     if view == 0 {
         work.push(TraceWork::Lists);
         build::declare_lists(graph, views, prepared.has_lists);

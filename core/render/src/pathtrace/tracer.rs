@@ -17,6 +17,7 @@ use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewResources};
+use super::sky::SkyMap;
 use super::unseen;
 use super::world::WorldBuilder;
 use crate::parts::Parts;
@@ -60,6 +61,8 @@ pub(crate) struct Tracer {
     /// Of each view.
     pub(crate) history: Vec<History>,
     pub(crate) kept: KeptLights,
+    /// What rays see of the sky; none before one was first seen.
+    pub(crate) sky: Option<SkyMap>,
     /// The last frame was seen by rays of the camera.
     pub(crate) has_camera_rays: bool,
     /// A line has said that some frames cannot be traced.
@@ -151,6 +154,7 @@ impl Tracer {
             buffers: None,
             history: Vec::new(),
             kept: KeptLights::default(),
+            sky: None,
             has_camera_rays: false,
             has_said_blind: false,
             is_tracing: false,
@@ -239,6 +243,11 @@ impl Tracer {
         };
         keep(&mut self.world_state, resources.world);
         keep(&mut self.lists_state, resources.lists);
+        if let (Some(sky), Some(resources)) = (&mut self.sky, resources.sky) {
+            keep(&mut sky.sides.state, resources.sides);
+            keep(&mut sky.drawn.state, resources.drawn);
+            keep(&mut sky.texels.state, resources.texels);
+        }
         if let Some(buffers) = &mut self.buffers {
             keep(&mut buffers.visibility.state, resources.visibility);
             keep(&mut buffers.albedo.state, resources.albedo);
@@ -271,6 +280,7 @@ impl Tracer {
     pub(crate) fn forget(&mut self) {
         self.kept.forget();
         self.lists.forget();
+        self.sky.iter_mut().for_each(SkyMap::forget);
         self.history.iter_mut().for_each(History::forget);
     }
 }

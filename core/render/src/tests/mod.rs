@@ -13,4 +13,5 @@ mod primitives;
 mod relit;
 mod replies;
 mod scale;
+mod sky;
 mod textures;

@@ -143,7 +143,10 @@ impl Profile {
             scene.baked = scene.lights.is_empty();
         }
         scene.ambient += self.lights.ambient.unwrap_or(Vec3::ZERO);
-        scene.sky = self.sky.color.unwrap_or(scene.sky);
+        if let Some(color) = self.sky.color {
+            scene.sky = color;
+            scene.painted_sky = None;
+        }
     }
 }
 

@@ -78,6 +78,7 @@ fn the_sky_is_what_was_cleared_to_or_drawn() {
     sketch.world();
     let scene = Recovery::new().understand(&mut sketch.frame);
     assert_eq!(scene.sky, Vec3::X);
+    assert_eq!(scene.painted_sky, None);
 
     let mut sketch = Sketch::new();
     sketch.clear(Some([1.0, 0.0, 0.0, 1.0]));
@@ -85,7 +86,7 @@ fn the_sky_is_what_was_cleared_to_or_drawn() {
     sketch.depth(None);
     let [x, y, z] = Vec3::AXES;
     let octants = [[x, y, z], [x, z, -y], [-x, z, y], [-x, -y, z], [x, y, -z], [x, -z, -y]];
-    sketch.draw(octants.as_flattened());
+    let sky = sketch.draw(octants.as_flattened());
     sketch.unbind(0);
     sketch.depth(Some((Compare::Less, true)));
     sketch.modelview = view();
@@ -93,4 +94,9 @@ fn the_sky_is_what_was_cleared_to_or_drawn() {
     sketch.world();
     let scene = Recovery::new().understand(&mut sketch.frame);
     assert!(scene.sky.abs_diff_eq(Vec3::Z, 1e-3), "{}", scene.sky);
+    let painted = scene.painted_sky.unwrap();
+    assert_eq!((painted.mean, painted.least), (scene.sky, Vec3::ZERO));
+    assert_eq!((painted.cleared, painted.open), (Vec3::X, Vec3::X), "what was cleared to is seen beside it");
+    let draws: Vec<_> = painted.draws.iter().map(|draw| (draw.operation, draw.eye)).collect();
+    assert_eq!(draws, [(sky as u32, glam::DMat4::IDENTITY)]);
 }

@@ -37,6 +37,8 @@ fn from_variables(variable: &dyn Fn(&str) -> Option<String>) -> EngineOptions {
     let samples = parsed(variable, "AFTERGLOW_SPP", number).unwrap_or(LIVE_SAMPLES);
     pathtrace.spp = samples.clamp(1, MOST_SAMPLES);
     pathtrace.seed = parsed(variable, "AFTERGLOW_SEED", number).unwrap_or(pathtrace.seed);
+    // A program that plays must not stall.
+    pathtrace.waits_for_builds = false;
     pathtrace.profile = profile(variable);
     pathtrace.images = images(variable, pathtrace.profile.as_deref());
     if let Some(mebibytes) = parsed(variable, "AFTERGLOW_MEMORY", number) {

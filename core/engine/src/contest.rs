@@ -42,7 +42,7 @@ impl Contest {
 
     /// Takes note of the last picture that the device has finished, its passes timed.
     pub(crate) fn note(&mut self, report: &FrameReport) -> Turn {
-        let has_world = report.traced.is_some_and(|traced| traced.instances > 0);
+        let has_world = report.traced.is_some_and(|traced| traced.instances > 0 && traced.waiting == 0);
         let light = report.passes.iter().find(|pass| pass.name == PASS && pass.milliseconds > 0.0);
         let Some(light) =
             light.filter(|_| has_world && self.last.replace(report.index) != Some(report.index))
@@ -92,6 +92,10 @@ mod tests {
             let milliseconds = if backend == Backend::Software { software } else { hardware };
             // Pictures that are asked about again count once.
             assert_eq!(contest.note(&FrameReport::default()), Turn::Wait);
+            // Those of a world that is not all there do not count.
+            let mut early = report(index, 0.01);
+            early.traced.as_mut().unwrap().waiting = 1;
+            assert_eq!(contest.note(&early), Turn::Wait);
             let turn = contest.note(&report(index, milliseconds));
             assert!(turn != Turn::Wait || contest.note(&report(index, 0.01)) == Turn::Wait);
             match turn {

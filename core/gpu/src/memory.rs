@@ -9,6 +9,7 @@ use gpu_allocator::vulkan::{
 };
 use parking_lot::Mutex;
 
+use crate::device::DeviceKind;
 use crate::error::GpuError;
 use crate::gpu::{Gpu, Shared};
 
@@ -115,6 +116,17 @@ pub struct MemoryUse {
 impl Gpu {
     pub fn memory_use(&self) -> MemoryUse {
         self.shared.memory.totals()
+    }
+
+    /// Whether the device has the same memory as the processor, so that what the processor writes for it is as near as any
+    /// other. A graphics card is told apart even where the processor sees all of its memory: such a window may be
+    /// full, and then writes end up in the processor's memory.
+    pub fn has_unified_memory(&self) -> bool {
+        let is_shared = matches!(self.info().kind, DeviceKind::Integrated | DeviceKind::Cpu);
+        let both = vk::MemoryPropertyFlags::DEVICE_LOCAL | vk::MemoryPropertyFlags::HOST_VISIBLE;
+        // SAFETY: a plain query on a device that is alive.
+        let memory = unsafe { self.instance().get_physical_device_memory_properties(self.physical_device()) };
+        is_shared && memory.memory_types_as_slice().iter().any(|kind| kind.property_flags.contains(both))
     }
 
     /// Device-local memory to place resources in. `memory_type_bits` is the intersection of what they allow.

@@ -127,7 +127,8 @@ shared_struct! {
         /// From a triangle's first corner to its second and third.
         pub edge_1: [f32; 3],
         pub edge_2: [f32; 3],
-        /// Turns from the root of the light tree, the first in the lowest bit: 1 is to the second child.
+        /// Turns from the root of the light tree, the first in the lowest bit: 1 is to the second child. [`NO_TRAIL`] if it is
+        /// not in the tree.
         pub trail: u32,
         /// Unused.
         pub padding: u32,
@@ -436,6 +437,8 @@ pub const BAKE_COLORS: u32 = 7;
 pub const NO_MAP: u32 = u32::MAX;
 /// Of a [`SurfaceDraw`]: it is no light.
 pub const NO_LIGHT: u32 = u32::MAX;
+/// In [`LightSource::trail`]: no walk down the light tree ends there. Trees are not so deep.
+pub const NO_TRAIL: u32 = u32::MAX;
 /// In the draw of a [`MeshMember`]: it is the light of this number and the next ones, spheres.
 pub const MEMBER_OF_LIGHTS: u32 = 1 << 31;
 /// In [`LightNode::next`]: it is a light's number.

@@ -21,7 +21,7 @@ use crate::report::{FrameReport, SceneReport};
 use crate::retained::RangeCopy;
 use crate::schedule::{Lasting, LastingBuffer, Schedule, TracedViews, Work, schedule};
 use crate::slot::PassClock;
-use crate::tables;
+use crate::tables::{self, Uploaded};
 
 /// What is ready to be recorded.
 struct Prepared {
@@ -122,18 +122,18 @@ impl Renderer {
         };
         self.rectangles.prepare(frame, size, store, arena)?;
         let records = &self.rectangles.records;
-        let (address, range_copies) =
+        let (uploaded, range_copies) =
             tables::upload(frame, records, size, arena, &mut self.ranges, &mut self.scratch)?;
         let flip = |batch| copy::prepare(batch, &self.store, arena);
         let flips = plan.batches.iter().map(flip).collect::<Result<_, _>>()?;
         let traced = match tracing {
-            Some(tracing) => self.try_trace(frame, address, tracing)?,
+            Some(tracing) => self.try_trace(frame, &uploaded, tracing)?,
             None => None,
         };
         let views = match (&self.tracer, &traced) {
             (Some(tracer), Some(prepared)) => tracer.buffers.as_ref().map(|buffers| TracedViews {
                 buffers,
-                world: tracer.world_state,
+                world: [tracer.world_state, tracer.lists_state],
                 prepared,
             }),
             _ => None,
@@ -150,17 +150,18 @@ impl Renderer {
         let question = question.as_ref();
         let schedule = schedule(&plan, frame, &self.target, &lasting, has_first, question, views.as_ref())?;
         let readback = question.map(|question| Readback::new(&self.gpu, *question));
-        Ok(Prepared { plan, schedule, address, range_copies, flips, readback: readback.transpose()?, traced })
+        let (address, readback) = (uploaded.address, readback.transpose()?);
+        Ok(Prepared { plan, schedule, address, range_copies, flips, readback, traced })
     }
 
     /// As [`prepare_trace`](Self::prepare_trace). Where there is not enough memory, this frame is rasterized already.
     fn try_trace(
         &mut self,
         frame: &Frame,
-        address: u64,
+        uploaded: &Uploaded,
         tracing: &Tracing,
     ) -> Result<Option<PreparedTrace>, GpuError> {
-        match self.prepare_trace(frame, address, tracing) {
+        match self.prepare_trace(frame, uploaded, tracing) {
             Err(error) if error.is_out_of_memory() => {
                 self.trace_no_more(&error.into());
                 Ok(None)
@@ -173,7 +174,7 @@ impl Renderer {
     fn prepare_trace(
         &mut self,
         frame: &Frame,
-        address: u64,
+        uploaded: &Uploaded,
         tracing: &Tracing,
     ) -> Result<Option<PreparedTrace>, GpuError> {
         let (Some(tracer), Some(camera)) = (&mut self.tracer, &tracing.scene.camera) else {
@@ -184,7 +185,7 @@ impl Renderer {
         let input = TraceInput {
             gpu: &self.gpu,
             frame,
-            address,
+            uploaded,
             scratch: &self.scratch,
             raster: &mut self.raster,
             textures: &self.textures,
@@ -355,6 +356,7 @@ impl Renderer {
                         table: &self.table,
                         pipelines: &tracer.pipelines,
                         structures: tracer.world.structures(),
+                        lists: &tracer.lists,
                         buffers,
                         prepared: traced,
                     };

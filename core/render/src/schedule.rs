@@ -80,8 +80,8 @@ pub(crate) struct Schedule {
 /// The views of a frame that is traced.
 pub(crate) struct TracedViews<'a> {
     pub(crate) buffers: &'a ViewBuffers,
-    /// How the last frame left the world's meshes.
-    pub(crate) world: ResourceState,
+    /// How the last frame left the world's meshes, and the lists.
+    pub(crate) world: [ResourceState; 2],
     pub(crate) prepared: &'a PreparedTrace,
 }
 
@@ -210,15 +210,7 @@ impl Declaring {
     fn view(&mut self, view: usize, prepared: &PreparedTrace) {
         let Some(views) = &self.views else { return };
         let mut work = Vec::new();
-        declare_view(
-            &mut self.graph,
-            &mut work,
-            &self.resources,
-            views,
-            view,
-            &prepared.views[view].needs,
-            prepared.has_builds,
-        );
+        declare_view(&mut self.graph, &mut work, &self.resources, views, view, prepared);
         self.work.extend(work.into_iter().map(Work::Trace));
     }
 

@@ -37,8 +37,17 @@ struct Arena {
     index_count: u64,
 }
 
-/// Uploads the frame's tables, vertices and records of its draws; the draws' commands are left in `scratch`. Returns
-/// the address of the frame's record, and the copies that bring retained ranges to the device.
+/// What of a frame was written to where the device can read it.
+pub(crate) struct Uploaded {
+    pub(crate) record: FrameRecord,
+    /// Of the record.
+    pub(crate) address: u64,
+    /// Vertices, indices and tables, each with its bytes.
+    pub(crate) pieces: Vec<(Upload, u64)>,
+}
+
+/// Uploads the frame's tables, vertices and records of its draws; the draws' commands are left in `scratch`. Returns what was
+/// uploaded, and the copies that bring retained ranges to the device.
 pub(crate) fn upload(
     frame: &Frame,
     pixels: &[PixelRecord],
@@ -46,35 +55,58 @@ pub(crate) fn upload(
     arena: &mut UploadArena,
     ranges: &mut RetainedRanges,
     scratch: &mut Scratch,
-) -> Result<(u64, Vec<RangeCopy>), GpuError> {
+) -> Result<(Uploaded, Vec<RangeCopy>), GpuError> {
     let mut copies = Vec::new();
     scratch.residents.clear();
     for range in &frame.retained {
         let resident = ranges.resident(range, arena, &mut copies)?;
         scratch.residents.push(resident);
     }
+    let mut uploads = Uploads { arena, pieces: Vec::new() };
     let vertices = Arena {
-        words: arena.push(bytemuck::cast_slice(&frame.words))?,
+        words: uploads.push(bytemuck::cast_slice(&frame.words))?,
         word_count: frame.words.len() as u64,
-        indices: arena.push(bytemuck::cast_slice(&frame.indices))?,
+        indices: uploads.push(bytemuck::cast_slice(&frame.indices))?,
         index_count: frame.indices.len() as u64,
     };
     scratch.records(frame, &vertices);
     let record = FrameRecord {
-        draws: arena.push_table(&scratch.draws)?.address,
-        transforms: arena.push_table(&frame.transforms)?.address,
-        lights: arena.push_table(&frame.lights)?.address,
-        materials: arena.push_table(&frame.materials)?.address,
-        environments: arena.push_table(&frame.environments)?.address,
-        texgens: arena.push_table(&frame.texgens)?.address,
-        texture_matrices: arena.push_table(&frame.texture_matrices)?.address,
-        clip_planes: arena.push_table(&frame.clip_planes)?.address,
-        current: arena.push_table(&frame.current)?.address,
-        pixels: arena.push_table(pixels)?.address,
+        draws: uploads.table(&scratch.draws)?,
+        transforms: uploads.table(&frame.transforms)?,
+        lights: uploads.table(&frame.lights)?,
+        materials: uploads.table(&frame.materials)?,
+        environments: uploads.table(&frame.environments)?,
+        texgens: uploads.table(&frame.texgens)?,
+        texture_matrices: uploads.table(&frame.texture_matrices)?,
+        clip_planes: uploads.table(&frame.clip_planes)?,
+        current: uploads.table(&frame.current)?,
+        pixels: uploads.table(pixels)?,
         window_size: window_size.map(|side| side as f32),
     };
+    let pieces = uploads.pieces;
     let address = arena.push(bytemuck::bytes_of(&record))?.address;
-    Ok((address, copies))
+    Ok((Uploaded { record, address, pieces }, copies))
+}
+
+/// Uploads that are remembered.
+struct Uploads<'a> {
+    arena: &'a mut UploadArena,
+    pieces: Vec<(Upload, u64)>,
+}
+
+impl Uploads<'_> {
+    fn push(&mut self, bytes: &[u8]) -> Result<Upload, GpuError> {
+        let upload = self.arena.push(bytes)?;
+        self.pieces.push((upload, bytes.len() as u64));
+        Ok(upload)
+    }
+
+    /// Returns the table's address.
+    fn table<T: bytemuck::Pod>(&mut self, table: &[T]) -> Result<u64, GpuError> {
+        let upload = self.arena.push_table(table)?;
+        self.pieces.push((upload, size_of_val(table).max(size_of::<T>()) as u64));
+        Ok(upload.address)
+    }
 }
 
 impl Scratch {

@@ -27,13 +27,13 @@ vec4 unit_texel(ViewRecord view, DrawReference draw, uint triangle, vec3 weights
     }
     vec4 at[3] = corner_coordinates(view, draw, triangle, unit);
     vec4 coordinates = at[0] * weights.x + at[1] * weights.y + at[2] * weights.z;
-    float texels = cone_texels(cones, coordinates_area(at[0].xy / at[0].w, at[1].xy / at[1].w, at[2].xy / at[2].w));
+    float texels = cone_texels(cones, coordinates_area(texture_place(at[0]), texture_place(at[1]), texture_place(at[2])));
     uint image = draw.it.textures[unit] & 0xfffffu;
     uint filtering = draw.it.textures[unit] >> 20;
     ivec2 size = textureSize(sampler2D(textures_2d[nonuniformEXT(image)], samplers[nonuniformEXT(filtering)]), 0);
     float level = max(log2(float(max(size.x, size.y))) - texels, 0.0);
     return textureLod(sampler2D(textures_2d[nonuniformEXT(image)], samplers[nonuniformEXT(filtering)]),
-        coordinates.xy / coordinates.w, level);
+        texture_place(coordinates), level);
 }
 
 // The colour after texturing of `primary`, in sRGB as the program has it. A unit whose texture is baked light is passed

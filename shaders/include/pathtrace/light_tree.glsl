@@ -86,6 +86,9 @@ uint tree_light(ViewRecord view, vec3 start, vec3 normal, float random, out floa
 
 // The chance with which a walk ends at a light.
 float tree_chance(ViewRecord view, uint trail, vec3 start, vec3 normal) {
+    if (trail == NO_TRAIL) {
+        return 0.0;
+    }
     uint node = 0u;
     float chance = 1.0;
     for (uint turn = 0u; turn < MOST_TURNS; ++turn) {

@@ -13,13 +13,13 @@ vec2 map_coordinates(ViewRecord view, DrawReference draw, uint triangle, vec3 we
     uint unit = maps_unit(draw.it.maps);
     vec4 given = CurrentTable(FrameTable(view.frame).entries[0].current).entries[draw.it.current].texture[unit].coefficients;
     vec4 coordinates = attribute_at(draw, triangle, weights, SLOT_TEXTURE0 + unit, given);
-    return coordinates.xy / coordinates.w;
+    return texture_place(coordinates);
 }
 
 // Twice a triangle's area in the coordinates of its maps.
 float map_area(ViewRecord view, DrawReference draw, uint triangle) {
     vec4 at[3] = corner_coordinates(view, draw, triangle, maps_unit(draw.it.maps));
-    return coordinates_area(at[0].xy / at[0].w, at[1].xy / at[1].w, at[2].xy / at[2].w);
+    return coordinates_area(texture_place(at[0]), texture_place(at[1]), texture_place(at[2]));
 }
 
 // Texels along a map's longer side, as a power of two.

@@ -6,6 +6,7 @@
 #include "../fixed/attributes.glsl"
 #include "../fixed/lighting.glsl"
 #include "../fixed/state.glsl"
+#include "finite.glsl"
 #include "tables.glsl"
 
 // The includer enables GL_EXT_buffer_reference2.
@@ -65,6 +66,15 @@ vec4[3] corner_coordinates(ViewRecord view, DrawReference draw, uint triangle, u
         }
     }
     return coordinates;
+}
+
+// A place in a texture: what is no number counts as 0, and what is so far away that samplers would lose count as far as they
+// keep it.
+vec2 texture_place(vec4 coordinates) {
+    const float farthest = 1048576.0;
+    vec2 at = coordinates.xy / coordinates.w;
+    at = vec2(is_finite(at.x) ? at.x : 0.0, is_finite(at.y) ? at.y : 0.0);
+    return clamp(at, -farthest, farthest);
 }
 
 // A triangle's corners in object space.

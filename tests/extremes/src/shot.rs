@@ -4,7 +4,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{Gpu, GpuOptions};
-use afterglow_render::{Mode, PathtraceOptions, RenderOptions, Renderer};
+use afterglow_render::{Backend, Mode, PathtraceOptions, RenderOptions, Renderer};
 use afterglow_scene::{Relighting, Scene};
 use afterglow_scene_file::Stage;
 
@@ -22,7 +22,7 @@ impl Shot {
     pub fn of(samples: u32) -> Self {
         let mut options = PathtraceOptions::default();
         (options.spp, options.relighting, options.memory_bytes) = (samples, Relighting::Off, 0);
-        options.keeps_radiance = true;
+        (options.keeps_radiance, options.backend) = (true, backend());
         Self { options }
     }
 
@@ -80,6 +80,14 @@ pub fn pathtrace(world: &World, shot: &Shot) -> Picture {
 /// What the renderer takes of a world.
 pub fn staged(world: &World) -> (Frame, Scene) {
     Stage::new(world.file.clone()).unwrap().still()
+}
+
+/// What traces rays: `AFTERGLOW_EXTREMES_BACKEND` may say `hardware`.
+pub fn backend() -> Backend {
+    match std::env::var("AFTERGLOW_EXTREMES_BACKEND").as_deref() {
+        Ok("hardware") => Backend::Hardware,
+        _ => Backend::Software,
+    }
 }
 
 /// The device of all tests.

@@ -20,6 +20,7 @@ pub(crate) fn declare(
     let mut pass = graph.pass("light", views.backend.pass());
     pass.read(views.surfaces, views.backend.reads())
         .read(views.world, views.backend.meets())
+        .read(views.lists, views.backend.reads())
         .read(frame.geometry, views.backend.reads())
         .read(frame.textures, views.backend.reads())
         .read_write(views.counters, views.backend.writes())

@@ -9,6 +9,7 @@ pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewR
     let Some(radiance) = views.radiance else { return };
     let mut pass = graph.pass("reference", views.backend.pass());
     pass.read(views.world, views.backend.meets())
+        .read(views.lists, views.backend.reads())
         .read(frame.geometry, views.backend.reads())
         .read(frame.textures, views.backend.reads())
         .read_write(views.counters, views.backend.writes());

@@ -8,6 +8,7 @@ use crate::schedule::Resources;
 pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewResources, needs: &ViewNeeds) {
     let mut pass = graph.pass("reservoir", PassKind::Compute);
     pass.read(views.surfaces, Access::StorageReadCompute)
+        .read(views.lists, Access::StorageReadCompute)
         .read(frame.geometry, Access::StorageReadCompute)
         .when(needs.keeps_lights.is_ok(), needs.keeps_lights.err().unwrap_or_default());
     if let Some([now, before]) = views.reservoirs {

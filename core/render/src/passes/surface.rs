@@ -12,6 +12,7 @@ pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewR
         .read(views.albedo, Access::SampledCompute)
         // Not read yet, but named by the same array of images, which must all be ready then.
         .read(frame.color, Access::StorageReadCompute)
+        .read(views.lists, Access::StorageReadCompute)
         .read(frame.geometry, Access::StorageReadCompute)
         .read(frame.textures, Access::StorageReadCompute)
         .write(views.surfaces, Access::StorageWriteCompute)

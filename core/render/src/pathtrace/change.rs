@@ -72,6 +72,11 @@ impl ChangeHasher {
         self.last = Some(*draw);
     }
 
+    /// Adds how many meshes rays miss: one that has come is another world.
+    pub(crate) fn add_waiting(&mut self, meshes: usize) {
+        self.hasher.update(&meshes.to_le_bytes());
+    }
+
     pub(crate) fn finish(self) -> u64 {
         self.hasher.digest()
     }

@@ -35,8 +35,6 @@ pub(super) struct DriverInput<'a> {
     /// Corners of triangles, three each, or of boxes, two each.
     corners: Cow<'a, [[f32; 3]]>,
     parts: Vec<Part>,
-    /// Triangles or spheres.
-    pub(super) count: u32,
     /// The box of all that can be met.
     pub(super) bounds: Aabb,
     /// A hash of all but the positions: members, and what of them can be met.
@@ -101,8 +99,7 @@ impl<'a> DriverInput<'a> {
             hasher.update(&[u8::from(part.is_opaque)]);
         }
         hasher.update(bytemuck::cast_slice(&is_met.iter().copied().map(u8::from).collect::<Vec<_>>()));
-        let count = is_met.len() as u32;
-        Self { kind, corners, parts, count, bounds, topology: hasher.digest() }
+        Self { kind, corners, parts, bounds, topology: hasher.digest() }
     }
 
     /// Brings triangles or boxes to where this frame's builds read them.
@@ -120,11 +117,6 @@ impl<'a> DriverInput<'a> {
         };
         Ok(self.parts.iter().map(geometry).collect())
     }
-}
-
-/// A hash of all but the positions of a mesh: its members, and what of them rays can meet. None if that is nothing.
-pub(super) fn topology(shapes: &Shapes<'_>) -> Option<u64> {
-    DriverInput::new(shapes).map(|input| input.topology)
 }
 
 /// As for the software backend: all corners near enough, and some area.
@@ -162,7 +154,7 @@ mod tests {
         let flat = [[5.0; 3]; 3];
         let corners = [lost, CORNERS, flat].concat();
         let input = triangles(&corners).unwrap();
-        assert_eq!((input.count, input.bounds.max), (3, Vec3::new(1.0, 1.0, 0.0)));
+        assert_eq!((input.corners.len(), input.bounds.max), (9, Vec3::new(1.0, 1.0, 0.0)));
         assert_eq!(input.corners[..3], [[0.0; 3]; 3]);
         assert_eq!(input.corners[3..6], CORNERS);
         assert!(triangles(&lost).is_none());
@@ -183,7 +175,7 @@ mod tests {
     fn spheres_have_boxes_of_their_own() {
         let spheres = [[0.0, 0.0, 0.0, -1.0], [1.0, 2.0, 3.0, 0.5], [f32::NAN, 0.0, 0.0, 1.0]];
         let input = DriverInput::new(&Shapes::Spheres(&spheres)).unwrap();
-        assert_eq!((input.kind, input.count, input.corners.len()), (Kind::Spheres, 3, 6));
+        assert_eq!((input.kind, input.corners.len()), (Kind::Spheres, 6));
         assert!(input.corners.iter().flatten().all(|along| along.is_finite()));
         assert!(input.bounds.max.cmpgt(Vec3::new(1.5, 2.5, 3.5)).all());
         assert!(DriverInput::new(&Shapes::Spheres(&spheres[..1])).is_none());

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use hashbrown::HashMap;
 
-/// Contents of the meshes that the last frame used and that may change, by their topologies (see
-/// [`topology`](super::driver_input::topology)), in order; and those that this frame uses.
+/// Contents of the meshes that the last frame used and that may change, by their topologies
+/// (`DriverInput::topology`), in order; and those that this frame uses.
 #[derive(Default)]
 pub(super) struct Formers {
     of_last: HashMap<u64, VecDeque<u64>>,

@@ -14,6 +14,7 @@ use glam::{DVec3, Mat4, Vec3};
 use super::arrange::Mark;
 use super::geometry::GeometryReader;
 use super::lights::{LightList, MOST_TRIANGLES, ShiningTriangle};
+use super::lists::FramePlace;
 use super::options::{Displaced, PathtraceOptions};
 use super::replaced::ReplacedMaps;
 use super::said::SaidMaterial;
@@ -23,7 +24,7 @@ use super::world::{Traced, relative};
 use crate::bindings::{Lookup, image_word};
 use crate::passes::raster::{DrawMark, RasterState};
 use crate::replacements::Replacements;
-use crate::tables::Scratch;
+use crate::tables::{Scratch, Uploaded};
 use crate::textures::Textures;
 use crate::uploads::UploadArena;
 
@@ -31,8 +32,7 @@ use crate::uploads::UploadArena;
 pub(crate) struct TraceInput<'a> {
     pub(crate) gpu: &'a Gpu,
     pub(crate) frame: &'a Frame,
-    /// Address of the frame's record.
-    pub(crate) address: u64,
+    pub(crate) uploaded: &'a Uploaded,
     pub(crate) scratch: &'a Scratch,
     pub(crate) raster: &'a mut RasterState,
     pub(crate) textures: &'a Textures,
@@ -81,6 +81,7 @@ pub(crate) fn gather<'a>(
     geometry: &mut GeometryReader,
     options: &PathtraceOptions,
     input: &mut TraceInput<'a>,
+    frame_place: &FramePlace,
     tracing: &Tracing,
     origin: DVec3,
 ) -> Result<Surfaces<'a>, GpuError> {
@@ -89,6 +90,7 @@ pub(crate) fn gather<'a>(
         geometry,
         options,
         input,
+        frame_place,
         lighting: Lighting::of(&tracing.scene),
         relit: tracing.scene.relit.as_ref(),
         origin,
@@ -117,6 +119,7 @@ struct Gatherer<'a, 'i> {
     geometry: &'i mut GeometryReader,
     options: &'i PathtraceOptions,
     input: &'i mut TraceInput<'a>,
+    frame_place: &'i FramePlace,
     lighting: Lighting,
     /// Where traced light takes the place of baked light.
     relit: Option<&'i Relit>,
@@ -271,10 +274,12 @@ impl<'a> Gatherer<'a, '_> {
             table: input.table,
         };
         let bindings = &mut input.raster.bindings;
-        let push = bindings.push(&mut lookup, input.address, draw.bindings, draw.environment)?;
+        let push = bindings.push(&mut lookup, input.uploaded.address, draw.bindings, draw.environment)?;
+        let record = &input.scratch.draws[place.number];
         let located = Located {
-            record: &input.scratch.draws[place.number],
-            indices: input.scratch.commands[place.number].indices,
+            vertices: self.frame_place.of(record.vertices),
+            record,
+            indices: self.frame_place.of(input.scratch.commands[place.number].indices),
             push: &push,
         };
         let material = SaidMaterial::of(input.frame, draw, |map| image_word(&mut lookup, map))?;

@@ -17,8 +17,7 @@ use hashbrown::HashMap;
 
 use super::compaction::Compaction;
 use super::driver_input::{DriverInput, Kind};
-use super::formers::Formers;
-use super::structures::{IDLE_FRAMES, MeshInput, Placed, TopLevel, longest_side};
+use super::structures::{Builder, Changing, MeshInput, Placed, TopLevel, longest_side};
 use crate::uploads::UploadArena;
 
 /// Bytes of scratch memory that builds share, unless one alone takes more.
@@ -32,25 +31,16 @@ struct Mesh {
     structure: Arc<AccelerationStructure>,
     bounds: Aabb,
     kind: Kind,
+    /// None if it lasts.
+    updates: Option<Updates>,
 }
 
-/// What updates of a mesh need to know.
+/// How a mesh that does not last has changed since it was built.
 #[derive(Debug, Clone, Copy)]
-struct Changing {
-    /// A hash of all but the positions.
-    topology: u64,
-    updates: u32,
+struct Updates {
+    count: u32,
     /// Half the area of its box when it was built.
     built_area: f32,
-}
-
-#[derive(Default)]
-struct Entry {
-    /// None if there is nothing to meet.
-    mesh: Option<Mesh>,
-    /// Of meshes that do not last.
-    changing: Option<Changing>,
-    used: u64,
 }
 
 /// A bottom level to be built or updated.
@@ -73,17 +63,15 @@ struct TopBuild {
 pub(crate) struct HardwareStructures {
     gpu: Gpu,
     scratch: BuildScratch,
-    entries: HashMap<u64, Entry>,
+    /// Those that rays can meet.
+    meshes: HashMap<u64, Mesh>,
     frame: u64,
-    formers: Formers,
     builds: Vec<Build>,
     compaction: Compaction,
     top: Option<AccelerationStructure>,
     /// What the top level was built from.
     instances: Vec<StructureInstance>,
     top_build: Option<TopBuild>,
-    /// Triangles and spheres built in this frame.
-    pub(crate) built: usize,
 }
 
 impl HardwareStructures {
@@ -91,96 +79,46 @@ impl HardwareStructures {
         Ok(Self {
             gpu: gpu.clone(),
             scratch: gpu.create_build_scratch(SCRATCH_BYTES)?,
-            entries: HashMap::new(),
+            meshes: HashMap::new(),
             frame: 0,
-            formers: Formers::default(),
             builds: Vec::new(),
             compaction: Compaction::default(),
             top: None,
             instances: Vec::new(),
             top_build: None,
-            built: 0,
         })
     }
 
-    /// A new frame begins: what was not used for long goes, and what can be made smaller will be.
-    pub(crate) fn begin_frame(&mut self) -> Result<(), GpuError> {
-        self.frame += 1;
-        self.built = 0;
-        self.builds.clear();
-        self.top_build = None;
-        let frame = self.frame;
-        self.entries.retain(|_, entry| entry.used + IDLE_FRAMES > frame);
-        self.formers.begin_frame();
-        self.compaction.begin_frame(&self.gpu, frame)?;
-        for copy in &self.compaction.copies {
-            if let Some(Entry { mesh: Some(mesh), .. }) = self.entries.get_mut(&copy.content) {
-                mesh.structure = copy.to.clone();
-            }
-        }
-        Ok(())
-    }
-
-    pub(crate) fn has(&self, content: u64) -> bool {
-        self.entries.contains_key(&content)
-    }
-
-    /// Says that this frame uses a mesh, and whether rays can meet anything of it.
-    pub(crate) fn take(&mut self, content: u64) -> bool {
-        let Some(entry) = self.entries.get_mut(&content) else {
-            return false;
-        };
-        if let Some(changing) = entry.changing.filter(|_| entry.used != self.frame) {
-            self.formers.note(changing.topology, content);
-        }
-        entry.used = self.frame;
-        entry.mesh.is_some()
-    }
-
-    pub(crate) fn build(
-        &mut self,
-        content: u64,
-        input: &MeshInput<'_>,
-        arena: &mut UploadArena,
-    ) -> Result<(), GpuError> {
-        let entry = match DriverInput::new(&input.shapes) {
-            Some(driver_input) => self.place(content, &driver_input, input.is_lasting, arena)?,
-            None => Entry::default(),
-        };
-        self.entries.insert(content, entry);
-        Ok(())
-    }
-
-    /// Plans the build of a mesh. One that is more than the device takes is left out.
+    /// Plans the build of a mesh. None if it is more than the device takes.
     fn place(
         &mut self,
         content: u64,
         input: &DriverInput<'_>,
-        is_lasting: bool,
+        changing: Option<&Changing<'_>>,
         arena: &mut UploadArena,
-    ) -> Result<Entry, GpuError> {
+    ) -> Result<Option<Mesh>, GpuError> {
         let geometries = input.upload(arena)?;
+        let is_lasting = changing.is_none();
         let structure_use = if is_lasting { StructureUse::Lasting } else { StructureUse::Changing };
         let sizes = match self.gpu.structure_sizes(StructureInput::BottomLevel(&geometries), structure_use) {
             Err(error @ GpuError::Invalid { .. }) => {
                 tracing::warn!("a mesh is left out: {error}");
-                return Ok(Entry::default());
+                return Ok(None);
             }
             other => other?,
         };
-        let former = if is_lasting { None } else { self.former(input.topology) };
-        let (structure, changing) = match former {
-            Some((structure, former)) => (structure, former.next(input)),
-            None => {
+        let former = changing.and_then(|changing| self.meshes.remove(&changing.former?));
+        let (structure, updates) = match former {
+            Some(Mesh { structure, updates: Some(updates), .. }) => (structure, updates.next(input)),
+            _ => {
                 let structure = self.gpu.create_structure("mesh", false, sizes.structure)?;
-                (Arc::new(structure), Changing::new(input))
+                (Arc::new(structure), Updates::new(input))
             }
         };
         if is_lasting {
             self.compaction.note(content, &structure);
         }
-        let is_update = changing.updates > 0;
-        self.built += input.count as usize;
+        let is_update = updates.count > 0;
         self.builds.push(Build {
             target: structure.clone(),
             geometries,
@@ -188,65 +126,13 @@ impl HardwareStructures {
             is_update,
             scratch_bytes: if is_update { sizes.update } else { sizes.build },
         });
-        let mesh = Mesh { structure, bounds: input.bounds, kind: input.kind };
-        Ok(Entry { mesh: Some(mesh), changing: (!is_lasting).then_some(changing), used: 0 })
-    }
-
-    /// The structure of a mesh that the last frame used and this one does not.
-    fn former(&mut self, topology: u64) -> Option<(Arc<AccelerationStructure>, Changing)> {
-        while let Some(content) = self.formers.next(topology) {
-            if self.entries.get(&content).is_some_and(|entry| entry.used == self.frame) {
-                continue;
-            }
-            if let Some(Entry { mesh: Some(mesh), changing: Some(changing), .. }) =
-                self.entries.remove(&content)
-            {
-                return Some((mesh.structure, changing));
-            }
-        }
-        None
-    }
-
-    /// Plans the top level of a frame, unless it is that of the last one.
-    pub(crate) fn top_level(
-        &mut self,
-        placed: &[Placed],
-        arena: &mut UploadArena,
-    ) -> Result<TopLevel, GpuError> {
-        let most = self.gpu.ray_tracing().map_or(0, |limits| limits.instances);
-        let mut bounds = Aabb::EMPTY;
-        let mut instances = Vec::with_capacity(placed.len());
-        for placed in placed {
-            if let Some((instance, reach)) = self.instance(placed) {
-                instances.push(instance);
-                bounds = bounds.union(reach);
-            }
-        }
-        if instances.len() as u64 > most {
-            tracing::warn!("rays meet nothing: {} instances, the device takes {most}", instances.len());
-            instances.clear();
-        }
-        self.compaction.ask(&self.gpu, self.frame)?;
-        let is_same = self.builds.is_empty() && self.instances == instances;
-        if !is_same || self.top.is_none() {
-            self.plan_top(&instances, arena)?;
-        }
-        let scratch = self.builds.iter().map(|build| build.scratch_bytes);
-        let top_scratch = self.top_build.as_ref().map(|build| build.scratch_bytes);
-        self.scratch.reserve(scratch)?;
-        self.scratch.reserve(top_scratch.into_iter())?;
-        let count = instances.len() as u32;
-        self.instances = instances;
-        Ok(TopLevel {
-            address: self.top.as_ref().map_or(0, AccelerationStructure::address),
-            instances: count,
-            extent: longest_side(&bounds),
-        })
+        let updates = (!is_lasting).then_some(updates);
+        Ok(Some(Mesh { structure, bounds: input.bounds, kind: input.kind, updates }))
     }
 
     /// An instance as the device reads it, and its box; none where no ray can meet it.
     fn instance(&self, placed: &Placed) -> Option<(StructureInstance, Aabb)> {
-        let mesh = self.entries.get(&placed.content)?.mesh.as_ref()?;
+        let mesh = self.meshes.get(&placed.content)?;
         if placed.mask == 0 || !has_inverse(&placed.object_to_world) {
             return None;
         }
@@ -281,14 +167,86 @@ impl HardwareStructures {
         self.top_build = Some(TopBuild { address, count, scratch_bytes: sizes.build });
         Ok(())
     }
+}
 
-    /// Whether this frame has anything to record.
-    pub(crate) fn has_work(&self) -> bool {
+impl Builder for HardwareStructures {
+    /// What can be made smaller will be.
+    fn begin_frame(&mut self, _: &mut UploadArena) -> Result<(), GpuError> {
+        self.frame += 1;
+        self.builds.clear();
+        self.top_build = None;
+        self.compaction.begin_frame(&self.gpu, self.frame)?;
+        for copy in &self.compaction.copies {
+            if let Some(mesh) = self.meshes.get_mut(&copy.content) {
+                mesh.structure = copy.to.clone();
+            }
+        }
+        Ok(())
+    }
+
+    fn build(
+        &mut self,
+        content: u64,
+        input: &MeshInput<'_>,
+        changing: Option<&Changing<'_>>,
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        let mesh = match (changing, DriverInput::new(&input.shapes).filter(|_| changing.is_none())) {
+            (Some(changing), _) => self.place(content, &changing.input, Some(changing), arena)?,
+            (None, Some(input)) => self.place(content, &input, None, arena)?,
+            (None, None) => None,
+        };
+        self.meshes.extend(mesh.map(|mesh| (content, mesh)));
+        Ok(())
+    }
+
+    fn is_met(&self, content: u64) -> bool {
+        self.meshes.contains_key(&content)
+    }
+
+    fn free(&mut self, content: u64) {
+        self.meshes.remove(&content);
+    }
+
+    /// Plans the top level of a frame, unless it is that of the last one.
+    fn top_level(&mut self, placed: &[Placed], arena: &mut UploadArena) -> Result<TopLevel, GpuError> {
+        let most = self.gpu.ray_tracing().map_or(0, |limits| limits.instances);
+        let mut bounds = Aabb::EMPTY;
+        let mut instances = Vec::with_capacity(placed.len());
+        for placed in placed {
+            if let Some((instance, reach)) = self.instance(placed) {
+                instances.push(instance);
+                bounds = bounds.union(reach);
+            }
+        }
+        if instances.len() as u64 > most {
+            tracing::warn!("rays meet nothing: {} instances, the device takes {most}", instances.len());
+            instances.clear();
+        }
+        self.compaction.ask(&self.gpu, self.frame)?;
+        let is_same = self.builds.is_empty() && self.instances == instances;
+        if !is_same || self.top.is_none() {
+            self.plan_top(&instances, arena)?;
+        }
+        let scratch = self.builds.iter().map(|build| build.scratch_bytes);
+        let top_scratch = self.top_build.as_ref().map(|build| build.scratch_bytes);
+        self.scratch.reserve(scratch)?;
+        self.scratch.reserve(top_scratch.into_iter())?;
+        let count = instances.len() as u32;
+        self.instances = instances;
+        Ok(TopLevel {
+            address: self.top.as_ref().map_or(0, AccelerationStructure::address),
+            instances: count,
+            extent: longest_side(&bounds),
+        })
+    }
+
+    fn has_work(&self) -> bool {
         self.top_build.is_some()
     }
 
     /// Records builds and copies of bottom levels, then the top level.
-    pub(crate) fn record(&self, commands: &Commands<'_>) {
+    fn record(&self, commands: &Commands<'_>) {
         let (Some(top), Some(top_build)) = (&self.top, &self.top_build) else {
             return;
         };
@@ -320,18 +278,18 @@ impl Build {
     }
 }
 
-impl Changing {
+impl Updates {
     /// Of a mesh that is built.
     fn new(input: &DriverInput<'_>) -> Self {
-        Self { topology: input.topology, updates: 0, built_area: input.bounds.half_area() }
+        Self { count: 0, built_area: input.bounds.half_area() }
     }
 
     /// Of the mesh with other positions, which is updated or built anew.
     fn next(self, input: &DriverInput<'_>) -> Self {
         let has_grown = input.bounds.half_area() > MOST_GROWTH * self.built_area;
-        match has_grown || self.updates >= MOST_UPDATES {
+        match has_grown || self.count >= MOST_UPDATES {
             true => Self::new(input),
-            false => Self { updates: self.updates + 1, ..self },
+            false => Self { count: self.count + 1, ..self },
         }
     }
 }

@@ -1,7 +1,9 @@
 //! The tree over lights with a place, by which shaders choose one of many (Conty Estevez and Kulla, Importance Sampling of
 //! Many Lights with Adaptive Tree Splitting, HPG 2018). `light_tree.glsl` walks it.
 
-use afterglow_records::{LIGHT_LEAF, LIGHT_POINT, LIGHT_SPHERE, LIGHT_TRIANGLE, LightNode, LightSource};
+use afterglow_records::{
+    LIGHT_LEAF, LIGHT_POINT, LIGHT_SPHERE, LIGHT_TRIANGLE, LightNode, LightSource, NO_TRAIL,
+};
 use bytemuck::Zeroable;
 use glam::Vec3;
 
@@ -109,9 +111,10 @@ struct Leaf {
     bounds: Bounds,
 }
 
-/// Builds the tree over the lights with a place, `lights[first..]`, and writes each one's trail. Lights without power are
-/// not in it.
+/// Builds the tree over the lights with a place, `lights[first..]`, and writes each one's trail. Lights without power, or
+/// with more than there are numbers for, are not in it: they are found by rays alone.
 pub(crate) fn build(lights: &mut [LightSource], first: usize) -> Vec<LightNode> {
+    lights.iter_mut().skip(first).for_each(|light| light.trail = NO_TRAIL);
     let numbered = lights.iter().enumerate().skip(first);
     let leaf =
         |(light, source): (usize, &LightSource)| Leaf { light: light as u32, bounds: Bounds::of(source) };
@@ -245,12 +248,14 @@ mod tests {
         let place =
             |i: usize| Vec3::new((i * 7919 % 1000) as f32, (i * 104_729 % 1000) as f32, (i % 13) as f32);
         let mut lights: Vec<_> = (0..10_000).map(|i| sphere(place(i), 1.0 + (i % 5) as f32)).collect();
-        lights[17].color = [0.0; 3];
+        (lights[17].color, lights[18].color) = ([0.0; 3], [f32::MAX; 3]);
         let nodes = build(&mut lights, 0);
-        assert_eq!(nodes.len(), 2 * 9_999 - 1);
-        for (number, light) in lights.iter().enumerate().filter(|(number, _)| *number != 17) {
+        assert_eq!(nodes.len(), 2 * 9_998 - 1);
+        for (number, light) in lights.iter().enumerate().filter(|(number, _)| !(17..=18).contains(number)) {
             assert_eq!(follow(&nodes, light.trail), number as u32);
         }
+        // No walk finds them.
+        assert_eq!([17, 18].map(|light: usize| lights[light].trail), [NO_TRAIL; 2]);
     }
 
     #[test]

@@ -1,180 +1,183 @@
 //! Structures of the software backend: bottom levels on the device, found by their content, and a top level a frame.
 //! Where a mesh that does not last is gone and another has the same triangles in the same order, only moved, its structure
 //! moves with them.
+//!
+//! What lasts is built by another thread where frames do not wait for it: until it comes, rays pass through it. So that little
+//! is missing for long, a few small meshes a frame are built at once, and small ones come before large ones.
 
 use afterglow_bvh::layout::FLAG_ALPHA_TESTED;
 use afterglow_bvh::{
     Aabb, Blas, BlasInput, Instance, Quality, TriangleAttributes, build_blas_with, build_tlas,
 };
-use afterglow_gpu::{Commands, Gpu, GpuError, vk};
+use afterglow_gpu::{Commands, Gpu, GpuError};
 use afterglow_records::MEMBER_SHIFT;
-use hashbrown::HashMap;
+use hashbrown::hash_map::Entry;
+use hashbrown::{HashMap, HashSet};
 
-use super::driver_input::topology;
-use super::formers::Formers;
+use super::background::{Background, Finished, Order};
 use super::refit::Movable;
-use super::slabs::{Part, Slabs};
-use super::structures::{IDLE_FRAMES, Member, MeshInput, Placed, Shapes, TopLevel, longest_side};
-use crate::uploads::{Upload, UploadArena};
+use super::slabs::Part;
+use super::staging::Staging;
+use super::structures::{Builder, Changing, Member, MeshInput, Placed, Shapes, TopLevel, longest_side};
+use crate::uploads::UploadArena;
 
-/// Meshes of more triangles are built fast, whatever they are.
+/// Bytes of a slab.
+const SLAB_BYTES: u64 = 16 << 20;
+/// Meshes of more triangles are built fast where frames wait for them.
 const MOST_IMPROVED: usize = 20_000;
+/// Triangles that a frame builds at once where it does not wait for others: about a millisecond's.
+const MOST_AT_ONCE: usize = 2_000;
 
 /// A bottom level on the device.
-#[derive(Debug, Clone, Copy)]
 struct Mesh {
-    address: u64,
+    part: Part,
     bounds: Aabb,
+    /// Of meshes that do not last: the structure.
+    movable: Option<Movable>,
 }
 
-struct Entry {
-    /// None if the mesh has no triangles that can be hit.
-    mesh: Option<Mesh>,
-    part: Option<Part>,
-    /// Of meshes that do not last: a hash of all but the positions, and the structure.
-    movable: Option<(u64, Movable)>,
-    used: u64,
-}
-
-/// A copy that brings a structure to its place.
-#[derive(Debug, Clone, Copy)]
-struct MeshCopy {
-    from: Upload,
-    to: vk::Buffer,
-    offset: u64,
-    bytes: u64,
-}
-
-/// All meshes, and the copies that this frame's new structures need.
+/// All meshes that rays can meet, and the copies that this frame's new structures need.
 pub(crate) struct Meshes {
-    slabs: Slabs,
-    entries: HashMap<u64, Entry>,
-    formers: Formers,
-    frame: u64,
-    copies: Vec<MeshCopy>,
-    /// Triangles built in this frame.
-    pub(crate) built: usize,
+    staging: Staging,
+    meshes: HashMap<u64, Mesh>,
+    /// None if frames wait for all that they need.
+    background: Option<Background>,
+    /// Meshes that are still being built.
+    waiting: HashSet<u64>,
+    /// Triangles of lasting meshes that this frame has built at once.
+    at_once: usize,
 }
 
 impl Meshes {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
+    /// `waits`: frames wait for all that they need.
+    pub(crate) fn new(gpu: &Gpu, waits: bool) -> Self {
+        let build = |order: &Order, quality| of_triangles(&order.corners, &order.members, quality);
         Self {
-            slabs: Slabs::new(gpu),
-            entries: HashMap::new(),
-            formers: Formers::default(),
-            frame: 0,
-            copies: Vec::new(),
-            built: 0,
+            staging: Staging::new(gpu, "meshes", SLAB_BYTES),
+            meshes: HashMap::new(),
+            background: (!waits).then(|| Background::new(build)),
+            waiting: HashSet::new(),
+            at_once: 0,
         }
     }
 
-    /// A new frame begins: what was not used for long goes.
-    pub(crate) fn begin_frame(&mut self) {
-        self.frame += 1;
-        self.copies.clear();
-        self.built = 0;
-        self.slabs.begin_frame();
-        self.formers.begin_frame();
-        let (frame, slabs) = (self.frame, &mut self.slabs);
-        self.entries.retain(|_, entry| {
-            let is_kept = entry.used + IDLE_FRAMES > frame;
-            if let (false, Some(part)) = (is_kept, entry.part.take()) {
-                slabs.free(part);
+    fn insert(&mut self, content: u64, blas: &Blas, arena: &mut UploadArena) -> Result<&mut Mesh, GpuError> {
+        let part = self.staging.bring(bytemuck::cast_slice(&blas.words), arena)?;
+        let mesh = Mesh { part, bounds: blas.bounds, movable: None };
+        let entry = self.meshes.entry(content);
+        if let Entry::Occupied(former) = &entry {
+            self.staging.free(former.get().part.clone());
+        }
+        Ok(entry.insert(mesh).into_mut())
+    }
+
+    /// Builds a mesh that lasts.
+    fn build_lasting(
+        &mut self,
+        content: u64,
+        corners: &[[f32; 3]],
+        members: &[Member],
+        arena: &mut UploadArena,
+    ) -> Result<(), GpuError> {
+        let triangles = corners.len() / 3;
+        let is_small = triangles <= MOST_IMPROVED;
+        let mut quality = if is_small { Quality::Good } else { Quality::Fast };
+        if let Some(background) = &mut self.background {
+            let is_built = self.at_once + triangles <= MOST_AT_ONCE;
+            let (corners, members) = (corners.to_vec(), members.to_vec());
+            if background.ask(Order { content, corners, members, is_built }).is_ok() {
+                quality = Quality::Fast;
+                if !is_built {
+                    self.waiting.insert(content);
+                    return Ok(());
+                }
+                self.at_once += triangles;
             }
-            is_kept
-        });
-    }
-
-    /// Whether a mesh is there, so that it need not be built.
-    pub(crate) fn has(&self, content: u64) -> bool {
-        self.entries.contains_key(&content)
-    }
-
-    /// Says that this frame uses a mesh, and whether rays can meet anything of it.
-    pub(crate) fn take(&mut self, content: u64) -> bool {
-        let Some(entry) = self.entries.get_mut(&content) else {
-            return false;
-        };
-        if let (Some((topology, _)), true) = (&entry.movable, entry.used != self.frame) {
-            self.formers.note(*topology, content);
         }
-        entry.used = self.frame;
-        entry.mesh.is_some()
+        let blas = of_triangles(corners, members, quality);
+        blas.map_or(Ok(()), |blas| self.insert(content, &blas, arena).map(|_| ()))
     }
 
-    /// Builds a mesh, or moves one that the last frame used and this one does not.
-    pub(crate) fn build(
+    /// Takes what was built meanwhile.
+    fn take_finished(&mut self, arena: &mut UploadArena) -> Result<(), GpuError> {
+        let finished = self.background.as_mut().map(Background::take).unwrap_or_default();
+        for Finished { content, blas } in finished {
+            let is_needed = self.waiting.remove(&content) || self.meshes.contains_key(&content);
+            if let Some(blas) = blas.filter(|_| is_needed) {
+                self.insert(content, &blas, arena)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes the structure of a mesh that becomes another one.
+    fn take(&mut self, content: u64) -> Option<Movable> {
+        let mesh = self.meshes.remove(&content)?;
+        self.staging.free(mesh.part);
+        mesh.movable
+    }
+}
+
+impl Builder for Meshes {
+    fn begin_frame(&mut self, arena: &mut UploadArena) -> Result<(), GpuError> {
+        self.staging.begin_frame();
+        self.at_once = 0;
+        self.take_finished(arena)
+    }
+
+    fn has_room(&self, triangles: usize) -> bool {
+        self.background.as_ref().is_none_or(|background| background.has_room(triangles))
+    }
+
+    fn build(
         &mut self,
         content: u64,
         input: &MeshInput<'_>,
+        changing: Option<&Changing<'_>>,
         arena: &mut UploadArena,
     ) -> Result<(), GpuError> {
-        let mut movable = None;
         match input.shapes {
             Shapes::Spheres(spheres) => {
-                self.built += spheres.len();
                 let blas = built(&BlasInput { spheres, ..BlasInput::default() }, Quality::Fast);
-                self.insert(content, blas.as_ref(), arena)?;
+                blas.map_or(Ok(()), |blas| self.insert(content, &blas, arena).map(|_| ()))
             }
             Shapes::Triangles { corners, members } if input.is_lasting => {
-                self.built += corners.len() / 3;
-                let is_small = corners.len() / 3 <= MOST_IMPROVED;
-                let quality = if is_small { Quality::Good } else { Quality::Fast };
-                self.insert(content, of_triangles(corners, members, quality).as_ref(), arena)?;
+                self.build_lasting(content, corners, members, arena)
             }
             Shapes::Triangles { corners, members } => {
-                self.built += corners.len() / 3;
-                let topology = topology(&input.shapes);
-                let moved = topology.and_then(|topology| self.former(topology)?.moved(corners, members));
+                let former = changing.and_then(|changing| self.take(changing.former?));
                 let anew = || of_triangles(corners, members, Quality::Fast).map(Movable::new);
-                movable = topology.zip(moved.or_else(anew));
-                self.insert(content, movable.as_ref().map(|(_, movable)| &movable.blas), arena)?;
+                let moved = former.and_then(|former| former.moved(corners, members));
+                let Some(movable) = moved.or_else(anew) else { return Ok(()) };
+                let mesh = self.insert(content, &movable.blas, arena)?;
+                mesh.movable = Some(movable);
+                Ok(())
             }
         }
-        if let Some(entry) = self.entries.get_mut(&content) {
-            entry.movable = movable;
-        }
-        Ok(())
     }
 
-    /// The structure of a mesh that the last frame used and this one does not.
-    fn former(&mut self, topology: u64) -> Option<Movable> {
-        while let Some(content) = self.formers.next(topology) {
-            if self.entries.get(&content).is_some_and(|entry| entry.used == self.frame) {
-                continue;
-            }
-            if let Some(entry) = self.entries.remove(&content) {
-                if let Some(part) = entry.part {
-                    self.slabs.free(part);
-                }
-                return entry.movable.map(|(_, movable)| movable);
-            }
-        }
-        None
+    fn is_met(&self, content: u64) -> bool {
+        self.meshes.contains_key(&content)
     }
 
-    fn insert(&mut self, content: u64, blas: Option<&Blas>, arena: &mut UploadArena) -> Result<(), GpuError> {
-        let mut entry = Entry { mesh: None, part: None, movable: None, used: 0 };
-        if let Some(blas) = blas {
-            let part = self.upload(&blas.words, arena)?;
-            entry.mesh = Some(Mesh { address: part.address, bounds: blas.bounds });
-            entry.part = Some(part);
-        }
-        self.entries.insert(content, entry);
-        Ok(())
+    fn is_waiting(&self, content: u64) -> bool {
+        self.waiting.contains(&content)
     }
 
-    /// Makes the top level of a frame.
-    pub(crate) fn top_level(
-        &mut self,
-        placed: &[Placed],
-        arena: &mut UploadArena,
-    ) -> Result<TopLevel, GpuError> {
+    fn free(&mut self, content: u64) {
+        self.take(content);
+        self.waiting.remove(&content);
+        if let Some(background) = &mut self.background {
+            background.cancel(content);
+        }
+    }
+
+    fn top_level(&mut self, placed: &[Placed], arena: &mut UploadArena) -> Result<TopLevel, GpuError> {
         let instance = |placed: &Placed| {
-            let mesh = self.entries.get(&placed.content)?.mesh?;
+            let mesh = self.meshes.get(&placed.content)?;
             Some(Instance {
                 object_to_world: placed.object_to_world,
-                blas: mesh.address,
+                blas: mesh.part.address,
                 bounds: mesh.bounds,
                 id: placed.id,
                 mask: placed.mask,
@@ -187,44 +190,18 @@ impl Meshes {
             build_tlas(&[]).unwrap_or_else(|_| unreachable!("no instances are not too many"))
         });
         Ok(TopLevel {
-            address: self.upload_once(&tlas.words, arena)?,
+            address: self.staging.bring_once(bytemuck::cast_slice(&tlas.words), arena)?,
             instances: tlas.instance_count,
             extent: longest_side(&tlas.bounds),
         })
     }
 
-    /// Whether this frame has anything to record.
-    pub(crate) fn has_work(&self) -> bool {
-        self.copies.iter().any(|copy| copy.bytes > 0)
+    fn has_work(&self) -> bool {
+        self.staging.has_work()
     }
 
-    /// Records copies of structures to their places.
-    pub(crate) fn record(&self, commands: &Commands<'_>) {
-        for copy in self.copies.iter().filter(|copy| copy.bytes > 0) {
-            let regions =
-                [vk::BufferCopy { src_offset: copy.from.offset, dst_offset: copy.offset, size: copy.bytes }];
-            // SAFETY: both buffers are this device's and hold these bytes; the target's are allocated for this copy.
-            unsafe {
-                commands.device().cmd_copy_buffer(commands.raw(), copy.from.buffer, copy.to, &regions);
-            }
-        }
-    }
-
-    /// Brings words that only this frame reads to the device. Returns their address.
-    fn upload_once(&mut self, words: &[u32], arena: &mut UploadArena) -> Result<u64, GpuError> {
-        let part = self.upload(words, arena)?;
-        let address = part.address;
-        self.slabs.free(part);
-        Ok(address)
-    }
-
-    fn upload(&mut self, words: &[u32], arena: &mut UploadArena) -> Result<Part, GpuError> {
-        let bytes: &[u8] = bytemuck::cast_slice(words);
-        let part = self.slabs.allocate(bytes.len() as u64)?;
-        if let Some((to, offset)) = self.slabs.place(&part) {
-            self.copies.push(MeshCopy { from: arena.push(bytes)?, to, offset, bytes: bytes.len() as u64 });
-        }
-        Ok(part)
+    fn record(&self, commands: &Commands<'_>) {
+        self.staging.record(commands);
     }
 }
 

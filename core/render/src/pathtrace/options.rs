@@ -107,6 +107,9 @@ pub struct PathtraceOptions {
     pub filter: bool,
     /// Go on with the last frame's samples while nothing changes.
     pub accumulate: bool,
+    /// Whether frames wait for the structures that rays need of them, so that a trace always gives the same pictures. If not, what
+    /// lasts is built beside the frames, and rays pass through it until it is there ([`Backend::Software`]).
+    pub waits_for_builds: bool,
     /// What is known of the program. It holds from the first frame on: later changes count for new windows only.
     pub profile: Option<Arc<Profile>>,
     /// Whether light sources are recovered from baked light. It holds from the first frame on, like the profile.
@@ -145,6 +148,7 @@ impl Default for PathtraceOptions {
             seed: 0,
             filter: true,
             accumulate: true,
+            waits_for_builds: true,
             profile: None,
             relighting: Relighting::Background,
             replacing: Replacing::WhereGood,

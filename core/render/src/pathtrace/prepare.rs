@@ -1,7 +1,7 @@
 //! From a judged frame to what its passes read: surfaces, the world, a record a view.
 
 use afterglow_gpu::GpuError;
-use afterglow_records::{MASK_MOVING, Paint, SurfaceKind, TRACE_PARALLEL, ViewRecord};
+use afterglow_records::{MASK_MOVING, MeshMember, Paint, SurfaceKind, TRACE_PARALLEL, ViewRecord};
 use afterglow_scene::Camera;
 use bytemuck::Zeroable;
 use glam::Vec3;
@@ -12,13 +12,14 @@ use super::change::{ChangeHasher, History, changes_textures};
 use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
 use super::lights::{LightList, highlight};
+use super::lists::{FramePlace, List};
 use super::options::Mode;
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
 use super::tracer::{Tracer, Tracing};
 use super::world::{Traced, World};
 use crate::passes::raster::DrawMark;
-use crate::uploads::Upload;
+use crate::uploads::UploadArena;
 
 /// How far things that move darken surfaces, as a share of the world's extent.
 const CONTACT_SHARE: f32 = 0.03;
@@ -46,6 +47,8 @@ pub(crate) struct PreparedTrace {
     pub(crate) backend: Backend,
     /// The world must be brought to the device.
     pub(crate) has_builds: bool,
+    /// Lists must be brought there, too.
+    pub(crate) has_lists: bool,
     /// Rays may meet spheres.
     pub(crate) has_spheres: bool,
     pub(crate) counts: TraceCounts,
@@ -62,6 +65,8 @@ pub struct TraceCounts {
     pub instances: usize,
     /// Triangles that were built into structures for this frame.
     pub built_triangles: usize,
+    /// Meshes that rays miss because they are still being built.
+    pub waiting: usize,
     /// Lights.
     pub lights: usize,
     /// Samples a pixel in the first view, earlier frames' included.
@@ -83,11 +88,13 @@ pub(crate) fn prepare(
     camera: &Camera,
     size: [u32; 2],
 ) -> Result<PreparedTrace, GpuError> {
-    tracer.world.begin_frame()?;
+    tracer.world.begin_frame(input.arena)?;
+    tracer.lists.begin_frame();
     // In f32, so that differences to what is near it are exact.
     let origin = camera.view.inverse().w_axis.truncate().as_vec3().as_dvec3();
+    let frame_place = tracer.lists.bring_frame(input.uploaded, input.arena)?;
     let geometry = &mut tracer.world.geometry;
-    let mut surfaces = gather(geometry, &tracer.options, &mut input, tracing, origin)?;
+    let mut surfaces = gather(geometry, &tracer.options, &mut input, &frame_place, tracing, origin)?;
     tracer.has_camera_rays = tracing.is_staged && tracer.mode == Mode::Reference;
     if let Some(buffers) = &mut tracer.buffers {
         buffers.reserve_movers(input.gpu, surfaces.records.len())?;
@@ -104,7 +111,8 @@ pub(crate) fn prepare(
     for (traced, reach) in surfaces.traced.iter().zip(&tracer.world.reaches) {
         surfaces.records[traced.surface as usize].reach = *reach;
     }
-    let common = tracer.common(&mut input, tracing, camera, &surfaces, &world, size)?;
+    let lists = tracer.bring_lists(&surfaces, &world.members, &frame_place, input.arena)?;
+    let common = tracer.common(&input, tracing, camera, &surfaces, &world, &lists, size);
     let program = match tracer.has_camera_rays {
         true => &tracer.pipelines.reference,
         false => &tracer.pipelines.light,
@@ -131,28 +139,59 @@ pub(crate) fn prepare(
         parity,
         backend: tracer.options.backend,
         has_builds: tracer.world.structures().has_work(),
+        has_lists: tracer.lists.has_work(),
         has_spheres: world.has_spheres,
         counts: TraceCounts {
             traced_draws: surfaces.seen,
             unseen: surfaces.traced.len() - surfaces.seen,
             instances: world.instances as usize,
             built_triangles: tracer.world.structures().built(),
+            waiting: world.waiting,
             lights: common.record.light_count as usize,
             samples: tracer.history.first().map_or(0, |history| history.samples() as usize),
         },
     })
 }
 
+/// Where a frame's lists are.
+struct ListAddresses {
+    /// The frame's record.
+    frame: u64,
+    surfaces: u64,
+    members: u64,
+    lights: u64,
+    light_nodes: u64,
+}
+
 impl Tracer {
+    fn bring_lists(
+        &mut self,
+        surfaces: &Surfaces<'_>,
+        members: &[MeshMember],
+        frame: &FramePlace,
+        arena: &mut UploadArena,
+    ) -> Result<ListAddresses, GpuError> {
+        let lights = &surfaces.lights;
+        Ok(ListAddresses {
+            frame: frame.record,
+            surfaces: self.lists.bring(List::Surfaces, &surfaces.records, arena)?,
+            members: self.lists.bring(List::Members, members, arena)?,
+            lights: self.lists.bring(List::Lights, &lights.sources, arena)?,
+            light_nodes: self.lists.bring(List::LightNodes, &lights.nodes, arena)?,
+        })
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "a frame is made of these")]
     fn common(
         &self,
-        input: &mut TraceInput<'_>,
+        input: &TraceInput<'_>,
         tracing: &Tracing,
         camera: &Camera,
         surfaces: &Surfaces<'_>,
         world: &World,
+        lists: &ListAddresses,
         size: [u32; 2],
-    ) -> Result<Common, GpuError> {
+    ) -> Common {
         let (scene, options) = (&tracing.scene, &self.options);
         let estimator = Estimator::of(self.mode, options);
         let origin = camera.view.inverse().w_axis.truncate();
@@ -164,16 +203,16 @@ impl Tracer {
             let record = &surfaces.records[traced.surface as usize];
             hasher.add(input.frame, traced.draw, record, traced.triangles.hash);
         }
+        hasher.add_waiting(world.waiting);
         let is_mover = |traced: &Traced<'_>| u32::from(traced.mask) & MASK_MOVING != 0;
         let rays = PixelRays::new(camera, size);
-        let address = |upload: Result<Upload, GpuError>| upload.map(|upload| upload.address);
-        Ok(Common {
+        Common {
             record: ViewRecord {
-                frame: input.address,
-                draws: address(input.arena.push_table(&surfaces.records))?,
-                members: world.members,
-                lights: address(input.arena.push_table(&surfaces.lights.sources))?,
-                light_nodes: address(input.arena.push_table(&surfaces.lights.nodes))?,
+                frame: lists.frame,
+                draws: lists.surfaces,
+                members: lists.members,
+                lights: lists.lights,
+                light_nodes: lists.light_nodes,
                 world: world.top_level,
                 width: size[0],
                 height: size[1],
@@ -205,7 +244,7 @@ impl Tracer {
             },
             hash: hasher.finish(),
             may_continue: estimator.accumulates && !changes_textures(input.frame),
-        })
+        }
     }
 
     /// What a view needs, and its record. The first view that has an exposure finds it for the others.

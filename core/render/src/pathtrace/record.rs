@@ -5,6 +5,7 @@ use afterglow_records::ViewPush;
 use bytemuck::Zeroable;
 
 use super::buffers::{ViewBuffers, sum_groups};
+use super::lists::Lists;
 use super::pipelines::{TracePipelines, pixel_groups, run};
 use super::prepare::PreparedTrace;
 use super::schedule::TraceWork;
@@ -16,6 +17,7 @@ pub(crate) struct TraceContext<'a> {
     pub(crate) table: &'a BindlessTable,
     pub(crate) pipelines: &'a TracePipelines,
     pub(crate) structures: &'a Structures,
+    pub(crate) lists: &'a Lists,
     pub(crate) buffers: &'a ViewBuffers,
     pub(crate) prepared: &'a PreparedTrace,
 }
@@ -28,6 +30,10 @@ impl TraceContext<'_> {
         let push = |view: usize| ViewPush { view: self.prepared.views[view].record, ..ViewPush::zeroed() };
         let indirect = |index: usize| self.buffers.indirect[index].buffer.address();
         let (pipeline, push, groups) = match work {
+            TraceWork::Lists => {
+                self.lists.record(self.commands);
+                return;
+            }
             TraceWork::Build => {
                 self.structures.record(self.commands);
                 return;

@@ -1,15 +1,17 @@
 //! The passes that light a view, declared in order.
 
-use afterglow_frame_graph::{GraphBuilder, ResourceId};
+use afterglow_frame_graph::{GraphBuilder, ResourceId, ResourceState};
 
 use super::backend::Backend;
 use super::buffers::ViewBuffers;
+use super::prepare::PreparedTrace;
 use crate::passes::{build, composite, exposure, filter, light, reference, reservoir, surface};
 use crate::schedule::Resources;
 
 /// What a pass of a view records; the number is the view's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum TraceWork {
+    Lists,
     Build,
     ClearCounters,
     /// Radiance by the camera's own rays.
@@ -70,6 +72,8 @@ pub(crate) struct ViewResources {
     pub(crate) visibility: ResourceId,
     pub(crate) albedo: ResourceId,
     pub(crate) world: ResourceId,
+    /// Surfaces, lights, and what else rays read.
+    pub(crate) lists: ResourceId,
     pub(crate) surfaces: ResourceId,
     pub(crate) surfaces_before: ResourceId,
     /// This frame's and those of the one before.
@@ -88,7 +92,7 @@ impl ViewResources {
     pub(crate) fn declare(
         graph: &mut GraphBuilder,
         buffers: &ViewBuffers,
-        world: afterglow_frame_graph::ResourceState,
+        [world, lists]: [ResourceState; 2],
         backend: Backend,
         parity: usize,
     ) -> Self {
@@ -99,6 +103,7 @@ impl ViewResources {
         let albedo_desc = ImageDesc::flat(buffers.size.into(), Format::Rgba8Unorm);
         let albedo = graph.import("albedo", albedo_desc, buffers.albedo.state);
         let world = graph.import("world", ResourceDesc::Buffer { bytes: 1 }, world);
+        let lists = graph.import("lists", ResourceDesc::Buffer { bytes: 1 }, lists);
         let mut import = |name: &'static str, tracked: &super::buffers::Tracked| {
             let bytes = tracked.buffer.size();
             graph.import(name, ResourceDesc::Buffer { bytes }, tracked.state)
@@ -108,6 +113,7 @@ impl ViewResources {
             visibility,
             albedo,
             world,
+            lists,
             surfaces: import("surfaces", &buffers.surfaces[parity]),
             surfaces_before: import("surfaces before", &buffers.surfaces[1 - parity]),
             reservoirs: buffers.reservoirs.as_ref().map(|both| {
@@ -122,6 +128,7 @@ impl ViewResources {
             radiance: buffers.radiance.as_ref().map(|radiance| import("radiance", radiance)),
         };
         graph.output(resources.world);
+        graph.output(resources.lists);
         graph.output(resources.exposure);
         graph.output(resources.counters);
         graph.output(resources.surfaces);
@@ -145,12 +152,14 @@ pub(crate) fn declare_view(
     frame: &Resources,
     views: &ViewResources,
     view: usize,
-    needs: &ViewNeeds,
-    has_builds: bool,
+    prepared: &PreparedTrace,
 ) {
+    let needs = &prepared.views[view].needs;
     if view == 0 {
+        work.push(TraceWork::Lists);
+        build::declare_lists(graph, views, prepared.has_lists);
         work.push(TraceWork::Build);
-        build::declare(graph, views, has_builds);
+        build::declare(graph, views, prepared.has_builds);
         work.push(TraceWork::ClearCounters);
         light::declare_clear(graph, views);
     }

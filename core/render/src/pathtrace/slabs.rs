@@ -5,8 +5,6 @@ use std::ops::Range;
 use afterglow_gpu::{Buffer, BufferDesc, BufferKind, Gpu, GpuError, vk};
 use range_alloc::RangeAllocator;
 
-/// Bytes of an ordinary slab; larger parts get a slab of their own.
-const SLAB_BYTES: u64 = 16 << 20;
 /// Of parts in a slab.
 const ALIGNMENT: u64 = 64;
 /// Frames after which memory that a frame used is idle: those in flight, and the one being recorded.
@@ -29,6 +27,9 @@ pub(crate) struct Part {
 /// All slabs.
 pub(crate) struct Slabs {
     gpu: Gpu,
+    name: &'static str,
+    /// Bytes of an ordinary slab; larger parts get a slab of their own.
+    slab_bytes: u64,
     slabs: Vec<Option<Slab>>,
     /// Parts that are free once the device has finished with them, with the frame that freed them.
     freed: Vec<(u64, Part)>,
@@ -36,8 +37,8 @@ pub(crate) struct Slabs {
 }
 
 impl Slabs {
-    pub(crate) fn new(gpu: &Gpu) -> Self {
-        Self { gpu: gpu.clone(), slabs: Vec::new(), freed: Vec::new(), frame: 0 }
+    pub(crate) fn new(gpu: &Gpu, name: &'static str, slab_bytes: u64) -> Self {
+        Self { gpu: gpu.clone(), name, slab_bytes, slabs: Vec::new(), freed: Vec::new(), frame: 0 }
     }
 
     /// A new frame begins: what was freed long enough ago can be used again.
@@ -78,8 +79,8 @@ impl Slabs {
     }
 
     fn allocate_in_new(&mut self, bytes: u64) -> Result<Part, GpuError> {
-        let size = bytes.max(SLAB_BYTES);
-        let buffer = self.gpu.create_buffer(&BufferDesc::new("meshes", BufferKind::Device, size))?;
+        let size = bytes.max(self.slab_bytes);
+        let buffer = self.gpu.create_buffer(&BufferDesc::new(self.name, BufferKind::Device, size))?;
         let mut free = RangeAllocator::new(0..size);
         // A fresh slab holds at least this part.
         let bytes = free.allocate_range(bytes).unwrap_or(0..bytes);
@@ -98,9 +99,19 @@ impl Slabs {
             return;
         };
         slab.free.free_range(part.bytes.clone());
-        if slab.free.is_empty() && slab.buffer.size() > SLAB_BYTES {
+        if slab.free.is_empty() && slab.buffer.size() > self.slab_bytes {
             self.slabs[part.slab] = None;
         }
+    }
+}
+
+#[cfg(test)]
+impl Slabs {
+    /// A part's bytes, once the device has finished.
+    pub(crate) fn download(&self, gpu: &Gpu, part: &Part) -> Vec<u8> {
+        let slab = self.slabs[part.slab].as_ref().unwrap();
+        let range = part.bytes.start as usize..part.bytes.end as usize;
+        gpu.download_buffer(&slab.buffer).unwrap()[range].to_vec()
     }
 }
 
@@ -109,9 +120,11 @@ mod tests {
     use super::*;
     use crate::testing::gpu;
 
+    const SLAB_BYTES: u64 = 1 << 20;
+
     #[test]
     fn memory_is_used_again_when_the_device_has_finished() {
-        let mut slabs = Slabs::new(&gpu());
+        let mut slabs = Slabs::new(&gpu(), "slabs", SLAB_BYTES);
         let first = slabs.allocate(100).unwrap();
         let second = slabs.allocate(100).unwrap();
         assert_eq!(second.address - first.address, 128);
@@ -126,7 +139,7 @@ mod tests {
 
     #[test]
     fn a_large_part_has_a_slab_that_goes_with_it() {
-        let mut slabs = Slabs::new(&gpu());
+        let mut slabs = Slabs::new(&gpu(), "slabs", SLAB_BYTES);
         let large = slabs.allocate(SLAB_BYTES + 1).unwrap();
         assert_eq!(slabs.place(&large).unwrap().1, 0);
         let again = large.clone();

@@ -77,6 +77,8 @@ pub(crate) fn masks(class: Class, kind: SurfaceKind) -> (u32, u32) {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Located<'a> {
     pub(crate) record: &'a DrawRecord,
+    /// Address of vertex 0.
+    pub(crate) vertices: u64,
     /// Address of the first index.
     pub(crate) indices: u64,
     pub(crate) push: &'a DrawPush,
@@ -100,7 +102,7 @@ pub(crate) fn surface_draw(
     let words: &[u32] = bytemuck::cast_slice(std::slice::from_ref(&words));
     let record = located.record;
     SurfaceDraw {
-        vertices: record.vertices,
+        vertices: located.vertices,
         indices: located.indices,
         object_to_world,
         viewport: [viewport.x, viewport.y, viewport.width, viewport.height].map(|side| side as f32),

@@ -11,6 +11,7 @@ use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
 use super::change::History;
 use super::kept::KeptLights;
+use super::lists::Lists;
 use super::options::{Mode, PathtraceOptions};
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
@@ -50,6 +51,9 @@ pub(crate) struct Tracer {
     pub(crate) world: WorldBuilder,
     /// How the last frame left the meshes.
     pub(crate) world_state: ResourceState,
+    pub(crate) lists: Lists,
+    /// How the last frame left those.
+    pub(crate) lists_state: ResourceState,
     pub(crate) pipelines: Arc<TracePipelines>,
     /// Of the window's size; none before the first traced frame.
     pub(crate) buffers: Option<ViewBuffers>,
@@ -103,10 +107,13 @@ impl Tracer {
         mode: Mode,
         options: &PathtraceOptions,
     ) -> Result<(), GpuError> {
-        if options.backend != self.options.backend {
-            let world = WorldBuilder::new(gpu, options.backend)?;
-            self.pipelines = Arc::new(TracePipelines::new(gpu, table, options.backend)?);
-            self.world = world;
+        let (backend, waits) = (options.backend, options.waits_for_builds);
+        if backend != self.options.backend {
+            let pipelines = Arc::new(TracePipelines::new(gpu, table, backend)?);
+            self.world = WorldBuilder::new(gpu, backend, waits)?;
+            self.pipelines = pipelines;
+        } else if waits != self.options.waits_for_builds {
+            self.world = WorldBuilder::new(gpu, backend, waits)?;
         }
         self.mode = mode;
         self.options = options.clone();
@@ -125,7 +132,7 @@ impl Tracer {
         options: PathtraceOptions,
         pipelines: Arc<TracePipelines>,
     ) -> Result<Self, GpuError> {
-        let world = WorldBuilder::new(gpu, options.backend)?;
+        let world = WorldBuilder::new(gpu, options.backend, options.waits_for_builds)?;
         let mut recovery = Recovery::with_profile(options.profile.clone())
             .with_relighting(options.relighting, options.replacing);
         recovery.set_memory(options.memory_bytes);
@@ -138,6 +145,8 @@ impl Tracer {
             recovery,
             world,
             world_state: ResourceState::SETTLED,
+            lists: Lists::new(gpu),
+            lists_state: ResourceState::SETTLED,
             pipelines,
             buffers: None,
             history: Vec::new(),
@@ -229,6 +238,7 @@ impl Tracer {
             *state = graph.final_state(resource).unwrap_or(*state);
         };
         keep(&mut self.world_state, resources.world);
+        keep(&mut self.lists_state, resources.lists);
         if let Some(buffers) = &mut self.buffers {
             keep(&mut buffers.visibility.state, resources.visibility);
             keep(&mut buffers.albedo.state, resources.albedo);
@@ -260,6 +270,7 @@ impl Tracer {
     /// After a frame that was not recorded: what its passes would have left is not there.
     pub(crate) fn forget(&mut self) {
         self.kept.forget();
+        self.lists.forget();
         self.history.iter_mut().for_each(History::forget);
     }
 }

@@ -14,7 +14,7 @@ use super::anchors::{Anchor, Reach};
 use super::backend::Backend;
 use super::geometry::{GeometryReader, Triangles};
 use super::lights::{Lamps, LightList};
-use super::structures::{Member, MeshInput, Placed, Shapes, Structures};
+use super::structures::{Member, MeshInput, Placed, Shapes, Structures, TopLevel};
 use crate::uploads::UploadArena;
 
 /// Triangles of a member, and members of a mesh, that a hit's primitive can name.
@@ -39,12 +39,14 @@ pub(crate) struct Traced<'a> {
     pub(crate) block: Option<u32>,
 }
 
-/// The top level and what its hits are numbered by, on the device.
-#[derive(Debug, Clone, Copy, Default)]
+/// The top level on the device, and what its hits are numbered by.
+#[derive(Debug, Clone, Default)]
 pub(crate) struct World {
     pub(crate) top_level: u64,
-    pub(crate) members: u64,
+    pub(crate) members: Vec<MeshMember>,
     pub(crate) instances: u32,
+    /// Meshes that rays miss because they are still being built.
+    pub(crate) waiting: usize,
     /// Whether rays may meet spheres.
     pub(crate) has_spheres: bool,
     /// The longest side of its box.
@@ -70,6 +72,10 @@ impl Group {
         if self.is_flat { Mat4::IDENTITY } else { self.model }
     }
 
+    fn triangles(&self, traced: &[Traced<'_>]) -> usize {
+        self.draws.iter().map(|&draw| traced[draw].triangles.count as usize).sum()
+    }
+
     fn anchor(&self) -> Anchor {
         if self.is_flat { Anchor::ORIGIN } else { Anchor::of(self.reach) }
     }
@@ -87,19 +93,21 @@ pub(crate) struct WorldBuilder {
 }
 
 impl WorldBuilder {
+    /// `waits`: frames wait for the structures that they need.
+    ///
     /// # Errors
     /// If the device lacks the backend.
-    pub(crate) fn new(gpu: &Gpu, backend: Backend) -> Result<Self, GpuError> {
+    pub(crate) fn new(gpu: &Gpu, backend: Backend, waits: bool) -> Result<Self, GpuError> {
         Ok(Self {
-            structures: Structures::new(gpu, backend)?,
+            structures: Structures::new(gpu, backend, waits)?,
             geometry: GeometryReader::default(),
             reaches: Vec::new(),
         })
     }
 
-    pub(crate) fn begin_frame(&mut self) -> Result<(), GpuError> {
+    pub(crate) fn begin_frame(&mut self, arena: &mut UploadArena) -> Result<(), GpuError> {
         self.geometry.begin_frame();
-        self.structures.begin_frame()
+        self.structures.begin_frame(arena)
     }
 
     pub(crate) fn structures(&self) -> &Structures {
@@ -123,14 +131,17 @@ impl WorldBuilder {
         }
         let mut members = Vec::new();
         let mut placed = Vec::new();
+        let mut waiting = 0;
         self.reaches.clear();
         self.reaches.resize(traced.len(), f32::INFINITY);
         for (content, group) in &groups {
             let anchor = group.anchor();
             group.draws.iter().for_each(|&draw| self.reaches[draw] = anchor.reach);
-            if !self.structures.has(*content) {
+            let has_room = || !group.is_lasting || self.structures.has_room(group.triangles(traced));
+            if !self.structures.has(*content) && has_room() {
                 self.build_mesh(frame, group, traced, *content, arena)?;
             }
+            waiting += usize::from(self.structures.is_waiting(*content));
             if self.structures.take(*content) {
                 placed.push(Placed {
                     content: *content,
@@ -149,13 +160,8 @@ impl WorldBuilder {
             members.push(MeshMember { draw: MEMBER_OF_LIGHTS | first, first_triangle: 0 });
         }
         let top = self.structures.top_level(&placed, arena)?;
-        Ok(World {
-            top_level: top.address,
-            members: arena.push_table(&members)?.address,
-            instances: top.instances,
-            has_spheres,
-            extent: top.extent,
-        })
+        let TopLevel { address: top_level, instances, extent } = top;
+        Ok(World { top_level, members, instances, waiting, has_spheres, extent })
     }
 
     fn build_mesh(
@@ -311,6 +317,8 @@ fn members_of(traced: &Traced<'_>) -> impl Iterator<Item = MeshMember> + use<> {
 mod tests {
     use super::*;
     use crate::testing::{FrameBuilder, RED, gpu};
+    use afterglow_gl::frame::{Format, Operation, RetainedRange, Slot, VertexLayout};
+    use std::time::{Duration, Instant};
 
     /// Two draws under one matrix and one under another, as a frame.
     fn frame(z: f32) -> Frame {
@@ -320,12 +328,18 @@ mod tests {
     }
 
     fn world(builder: &mut WorldBuilder, frame: &Frame) -> (World, usize) {
-        builder.begin_frame().unwrap();
+        let draws: Vec<_> = frame.draws().map(|(_, draw)| *draw).collect();
+        let world = world_of(builder, frame, &draws);
+        (world, builder.structures().built())
+    }
+
+    fn world_of(builder: &mut WorldBuilder, frame: &Frame, draws: &[Draw]) -> World {
         let mut arena = UploadArena::new(&gpu());
-        let traced: Vec<_> = frame
-            .draws()
+        builder.begin_frame(&mut arena).unwrap();
+        let traced: Vec<_> = draws
+            .iter()
             .enumerate()
-            .map(|(number, (_, draw))| Traced {
+            .map(|(number, draw)| Traced {
                 surface: number as u32,
                 draw,
                 triangles: builder.geometry.read(frame, draw),
@@ -338,17 +352,77 @@ mod tests {
                 block: None,
             })
             .collect();
-        let world = builder.build(frame, &traced, &LightList::default(), DVec3::ZERO, &mut arena).unwrap();
-        (world, builder.structures().built())
+        builder.build(frame, &traced, &LightList::default(), DVec3::ZERO, &mut arena).unwrap()
     }
 
     #[test]
     fn draws_of_one_matrix_are_one_mesh_that_is_built_when_it_changes() {
-        let mut builder = WorldBuilder::new(&gpu(), Backend::Software).unwrap();
+        let mut builder = WorldBuilder::new(&gpu(), Backend::Software, true).unwrap();
         let (first, built) = world(&mut builder, &frame(0.25));
         assert_eq!((first.instances, built), (2, 6));
         assert_eq!(world(&mut builder, &frame(0.25)).1, 0);
         assert_eq!(world(&mut builder, &frame(0.75)).1, 4);
+    }
+
+    /// A level of so many triangles, as one retained range.
+    fn level(triangles: u32) -> Frame {
+        let layout = VertexLayout::default().with(Slot::Position as usize, Format::F3);
+        let side = triangles.isqrt() as f32;
+        let corner = |vertex: u32| {
+            let (triangle, corner) = (vertex / 3, vertex % 3);
+            let place = [triangle as f32 % side, (triangle as f32 / side).floor()];
+            [
+                place[0] + (corner == 1) as u32 as f32,
+                place[1] + (corner == 2) as u32 as f32,
+                (place[0] * 0.3).sin(),
+            ]
+        };
+        let words = (0..3 * triangles).flat_map(corner).map(f32::to_bits).collect();
+        let range = RetainedRange::new(layout, words, (0..3 * triangles).collect());
+        let mut builder = FrameBuilder::new(8, 8);
+        let mut draw = builder.state();
+        (draw.layout, draw.index_count) = (layout, 3 * triangles);
+        builder.frame.retained.push(range.into());
+        builder.push(Operation::Draw(draw));
+        builder.frame
+    }
+
+    /// Brings levels into the world frame by frame until all are there. Returns the longest frame's milliseconds, and how
+    /// many instances each had.
+    fn bring(levels: &[Frame], waits: bool) -> (f64, Vec<u32>) {
+        let mut builder = WorldBuilder::new(&gpu(), Backend::Software, waits).unwrap();
+        let (mut longest, mut instances) = (0.0, Vec::new());
+        let begun = Instant::now();
+        let mut waiting = 1;
+        while waiting > 0 {
+            assert!(begun.elapsed() < Duration::from_secs(300));
+            let frame_begun = Instant::now();
+            let retained = levels.iter().flat_map(|level| level.retained.clone()).collect();
+            let all = Frame { retained, ..Frame::default() };
+            let mut draws: Vec<_> = levels.iter().map(|level| *level.draws().next().unwrap().1).collect();
+            for (number, draw) in draws.iter_mut().enumerate() {
+                draw.source = VertexSource::Retained { range: number as u32, first_index: 0 };
+            }
+            let world = world_of(&mut builder, &all, &draws);
+            longest = f64::max(longest, frame_begun.elapsed().as_secs_f64() * 1e3);
+            instances.push(world.instances);
+            waiting = world.waiting;
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        (longest, instances)
+    }
+
+    #[test]
+    fn a_new_level_does_not_hold_a_frame_up() {
+        let levels = [level(300_000), level(30)];
+        let ((stalled, waited), (longest, brought)) = (bring(&levels, true), bring(&levels, false));
+        println!(
+            "the longest frame: {stalled:.1} ms waiting for a level of 300,000 triangles, {longest:.1} ms not"
+        );
+        assert_eq!(waited, [2]);
+        // What is small is there at once.
+        assert_eq!((brought[0], *brought.last().unwrap()), (1, 2));
+        assert!(longest < 0.8 * stalled);
     }
 
     #[test]

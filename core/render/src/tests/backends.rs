@@ -130,6 +130,36 @@ fn what_lasts_stays_as_it_is_when_it_is_made_smaller() {
     assert_alike(&[software, hardware]);
 }
 
+/// A level that is built beside the frames: first rays miss it, then it is as it would have been at once.
+#[test]
+fn what_is_built_beside_the_frames_comes_to_be_met() {
+    let stage = |waits: bool| {
+        let mut stage = Stage::new(Mode::Pathtrace, |options| options.waits_for_builds = waits);
+        stage.gl.new_list(1, GL_COMPILE);
+        stage.gl.begin(GL_QUADS);
+        stage.gl.normal([0.0, 1.0, 0.0]);
+        for row in 0..1500 {
+            let (near, far) = (0.8 - row as f32 / 1000.0, 0.799 - row as f32 / 1000.0);
+            for [x, z] in [[-0.8, near], [0.8, near], [0.8, far], [-0.8, far]] {
+                stage.gl.vertex([x, 0.0, z, 1.0]);
+            }
+        }
+        stage.gl.end();
+        stage.gl.end_list();
+        let mut waiting = Vec::new();
+        // Some more, so that exposure has come to rest.
+        while waiting.iter().filter(|waiting| **waiting == 0).count() < 40 {
+            floor_and_slab(&mut stage, 0.0, |gl| gl.call_list(1));
+            let traced = stage.renderer.lock().unwrap().frame_report().unwrap().traced;
+            waiting.extend(traced.map(|traced| traced.waiting));
+        }
+        (stage, waiting.iter().any(|waiting| *waiting > 0))
+    };
+    let ((at_once, has_waited), (later, has_come)) = (stage(true), stage(false));
+    assert!(!has_waited && has_come);
+    assert_alike(&[at_once, later]);
+}
+
 #[test]
 fn the_backend_can_change() {
     let mut stage = Stage::new(Mode::Pathtrace, |_| {});
@@ -142,6 +172,26 @@ fn the_backend_can_change() {
     }
     let differing = before.iter().zip(&stage.picture()).filter(|(a, b)| a.abs_diff(**b) > 8).count();
     assert!(differing < before.len() / 100, "{differing}");
+    assert_valid();
+}
+
+/// On a device with memory of its own, which lavapipe is not, lists are copied: in frames that change, and in some that do not.
+#[test]
+fn copied_lists_are_what_was_written() {
+    for backend in [Backend::Software, Backend::Hardware] {
+        let picture = |copies: bool| {
+            let mut stage = Stage::new(Mode::Pathtrace, |options| options.backend = backend);
+            if copies {
+                let renderer = &mut *stage.renderer.lock().unwrap();
+                renderer.tracer.as_mut().unwrap().lists.always_copy(&renderer.gpu);
+            }
+            for aside in [0.3, 0.0, 0.0, 0.0, 0.1] {
+                floor_and_slab(&mut stage, aside, |gl| slab(gl, 0.8));
+            }
+            stage.picture()
+        };
+        assert!(picture(true) == picture(false), "{backend}");
+    }
     assert_valid();
 }
 

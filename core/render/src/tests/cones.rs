@@ -26,6 +26,8 @@ struct Hall {
     floor: [f32; 2],
     /// Pixels that the camera has turned to the right.
     turned: f32,
+    /// The wall's first texture coordinate.
+    first: f32,
 }
 
 fn texture(gl: &mut Context, shades: [u8; 2]) {
@@ -64,10 +66,12 @@ impl Hall {
         gl.scene_view();
         gl.scene_directional_light(1, [0.0, 0.0, -1.0], [1.0; 3], 0.0);
         gl.scene_sky(0.0, 0.0, 0.0);
-        let quad = |gl: &mut Context, corners: [[f32; 3]; 4], [s, t]: [f32; 2]| {
+        let quad = |gl: &mut Context, corners: [[f32; 3]; 4], first: f32, repeats: f32| {
             gl.begin(GL_QUADS);
-            for ([x, y, z], [u, v]) in corners.into_iter().zip([[0.0, 0.0], [s, 0.0], [s, t], [0.0, t]]) {
-                gl.tex_coord([u, v, 0.0, 1.0]);
+            for ([x, y, z], [u, v]) in
+                corners.into_iter().zip([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            {
+                gl.tex_coord([first + u * repeats, first + v * repeats, 0.0, 1.0]);
                 gl.vertex([x, y, z, 1.0]);
             }
             gl.end();
@@ -76,13 +80,13 @@ impl Hall {
         gl.scene_material(roughness, metallic);
         gl.normal([0.0, 1.0, 0.0]);
         let (left, right) = (-HALF, HALF);
-        quad(gl, [[left, 0.0, 1.0], [right, 0.0, 1.0], [right, 0.0, -AWAY], [left, 0.0, -AWAY]], [0.0; 2]);
+        quad(gl, [[left, 0.0, 1.0], [right, 0.0, 1.0], [right, 0.0, -AWAY], [left, 0.0, -AWAY]], 0.0, 0.0);
         gl.scene_defaults();
         gl.enable(GL_TEXTURE_2D);
         let repeats = self.squares as f32 / 2.0;
         let [low, high] = [0.0, 2.0 * HALF];
         let wall = [[left, low, -AWAY], [right, low, -AWAY], [right, high, -AWAY], [left, high, -AWAY]];
-        quad(gl, wall, [repeats, repeats]);
+        quad(gl, wall, self.first, repeats);
         gl.disable(GL_TEXTURE_2D);
         gl.swap_buffers();
         assert_eq!(gl.get_error(), GL_NO_ERROR);
@@ -135,6 +139,7 @@ fn what_a_mirror_shows_of_small_squares_stands_still() {
         shades: [0, 255],
         floor: MIRROR,
         turned: 0.0,
+        first: 0.0,
     };
     assert!(flicker(&fine) < 0.02, "{}", flicker(&fine));
     let reference = Hall { mode: Mode::Reference, ..fine };
@@ -144,7 +149,8 @@ fn what_a_mirror_shows_of_small_squares_stands_still() {
 #[test]
 fn what_a_mirror_shows_of_large_squares_is_sharp() {
     for (mode, samples) in [(Mode::Pathtrace, 1), (Mode::Reference, 8)] {
-        let squares = Hall { mode, samples, squares: 40, shades: [0, 255], floor: MIRROR, turned: 0.0 };
+        let squares =
+            Hall { mode, samples, squares: 40, shades: [0, 255], floor: MIRROR, turned: 0.0, first: 0.0 };
         // A square is eight pixels wide: most are all black or all white.
         let mut floor = squares.floor();
         floor.sort_by(f64::total_cmp);
@@ -162,10 +168,37 @@ fn light_of_small_squares_is_that_of_their_mean() {
         shades,
         floor: [1.0, 0.0],
         turned: 0.0,
+        first: 0.0,
     };
     let noise = |hall: &Hall| spread(hall.floor().into_iter().collect::<Vec<_>>().into_iter());
     let (plain, plain_noise) = noise(&matte(800, [128; 2]));
     let (fine, fine_noise) = noise(&matte(800, [90, 166]));
     assert!((fine / plain - 1.0).abs() < 0.05, "{fine} {plain}");
     assert!(fine_noise < 1.02 * plain_noise, "{fine_noise} {plain_noise}");
+}
+
+#[test]
+fn coordinates_that_are_far_away_or_no_numbers() {
+    let hall = |first: f32, mode: Mode| Hall {
+        mode,
+        samples: 4,
+        squares: 800,
+        shades: [90, 166],
+        floor: MIRROR,
+        turned: 0.0,
+        first,
+    };
+    for mode in [Mode::Pathtrace, Mode::Reference] {
+        let (expected, _) = spread(hall(0.0, mode).floor().into_iter());
+        for first in [1e5, -1e5] {
+            let (mean, _) = spread(hall(first, mode).floor().into_iter());
+            assert!((mean / expected - 1.0).abs() < 0.05, "{mode:?}, {first}: {mean}, not {expected}");
+        }
+        for first in [1e6, 1e9, f32::MAX, f32::INFINITY, f32::NAN] {
+            let floor = hall(first, mode).floor();
+            // Whichever texels are shown, they are the texture's.
+            let is_sound = |value: &f64| (0.2 * expected..5.0 * expected).contains(value);
+            assert!(floor.iter().all(is_sound), "{mode:?}, {first}");
+        }
+    }
 }

@@ -124,6 +124,24 @@ fn ten_thousand_lights() {
     }
 }
 
+/// A light with more power than there are numbers for cannot be asked for in proportion: rays find it.
+#[test]
+fn lights_of_power_beyond_all_numbers() {
+    let half = 1e6;
+    let ceiling = quad(Vec3::new(-half, 1.0, -half), Vec3::X * 2.0 * half, Vec3::Z * 2.0 * half);
+    for radiance in [1e10, 1e14, 1e30] {
+        let world = World::new(8)
+            .with(floor(1.0), lambert(0.5))
+            .with(ceiling.clone(), shining(radiance, 0.0))
+            .lamp(DVec3::new(0.0, 0.4, 0.0), 0.1, 1.0)
+            .lamp(DVec3::new(0.3, 0.3, 0.0), 0.1, 1e38);
+        let picture = reference(&spot(world, DVec3::new(1.2, 0.2, 0.0)), &direct(64));
+        picture.assert_sound(&format!("radiance {radiance}"));
+        let is_limited = picture.limited > 0;
+        assert!(is_limited && picture.whole().error.is_finite(), "radiance {radiance}");
+    }
+}
+
 /// A ceiling of very many triangles shines as one of two, also where there are too many to be asked.
 #[test]
 fn seventy_thousand_shining_triangles() {

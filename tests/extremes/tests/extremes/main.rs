@@ -4,6 +4,7 @@
 mod closed_forms;
 mod lights;
 mod materials;
+mod memory;
 mod places;
 mod triangles;
 mod views;

@@ -290,6 +290,21 @@ shared_struct! {
         pub indirect: [f32; 3],
         /// Radiance of highlights.
         pub specular: [f32; 3],
+        /// Where indirect light comes from, as [`IndirectTexel`] has it.
+        pub towards: [f32; 3],
+    }
+}
+
+shared_struct! {
+    /// Indirect light of a pixel on its way through the filter, in two bands of spherical harmonics, so that it can be mixed
+    /// with that of places which face elsewhere: luminance is that of `color` plus `towards` times the normal.
+    pub struct IndirectTexel {
+        /// Irradiance over pi of a surface that faces as this pixel's does: the first band.
+        pub color: [f32; 3],
+        /// How its luminance grows along each axis of the normal: the second band.
+        pub towards: [f32; 3],
+        /// Distance along the view; 0 where nothing is seen, negative for the view's second kind of surfaces.
+        pub depth: f32,
     }
 }
 

@@ -149,10 +149,20 @@ struct SurfaceTexel { // 32 bytes
 
 #ifndef STRUCT_LightTexel
 #define STRUCT_LightTexel
-struct LightTexel { // 36 bytes
+struct LightTexel { // 48 bytes
     vec3 direct;
     vec3 indirect;
     vec3 specular;
+    vec3 towards;
+};
+#endif
+
+#ifndef STRUCT_IndirectTexel
+#define STRUCT_IndirectTexel
+struct IndirectTexel { // 28 bytes
+    vec3 color;
+    vec3 towards;
+    float depth;
 };
 #endif
 

@@ -66,6 +66,7 @@ struct Path {
     uint stage;        // 0.. lights with a place, the far lights, the next ray
     bool is_specular;  // it left the first surface by its specular lobe
     bool is_over;
+    vec3 left;         // where it left the first surface to
 };
 
 // Samples that share what a surface's next ray stands for. Where they are independent, pictures are to have no bias: there
@@ -89,7 +90,7 @@ vec4 path_numbers(ViewRecord view, PathRandom random, uint dimension) {
 
 // A path of which `at` is the first surface, met by a ray with this cone.
 Path path_from(SurfacePoint at, vec3 to_viewer, uint mask, RayCone cone) {
-    return Path(at, to_viewer, cone, mask, vec3(1.0), 0u, 0u, false, at.is_end);
+    return Path(at, to_viewer, cone, mask, vec3(1.0), 0u, 0u, false, at.is_end, vec3(0.0));
 }
 
 uint placed_count(ViewRecord view) {
@@ -340,6 +341,7 @@ vec3 far_radiance(ViewRecord view, Path path, RayPlan plan) {
 // Takes what the next ray has met, and goes there.
 void go_on(ViewRecord view, inout Path path, RayPlan plan, bool met, Hit hit, inout Channels channels) {
     bool is_first = path.surfaces == 0u;
+    path.left = is_first ? plan.direction : path.left;
     if (!plan.is_worth_it || !met) {
         path.is_over = true;
         if (plan.is_worth_it) {

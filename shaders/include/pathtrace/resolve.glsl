@@ -6,6 +6,13 @@
 #include "color.glsl"
 #include "surface.glsl"
 
+// Irradiance over pi of indirect light where a surface faces along a unit vector. One band's colour is for both; how much more
+// comes from one side than from the other is limited, because few samples say it loudly.
+vec3 indirect_facing(IndirectTexel light, vec3 normal) {
+    float brightness = luminance(light.color);
+    return brightness > 0.0 ? light.color * clamp(1.0 + dot(light.towards, normal) / brightness, 0.25, 4.0) : light.color;
+}
+
 // Radiance of a pixel before exposure. `program` is the picture that the program itself made, linear.
 vec3 radiance(SurfaceTexel surface, LightTexel light, vec3 indirect, vec3 program) {
     vec3 albedo = linear_from_srgb(unpack_color(surface.albedo));

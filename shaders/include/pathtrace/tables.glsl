@@ -20,7 +20,7 @@ TEXELS(LightTexels, LightTexel);
 TEXELS(RadianceTexels, RadianceTexel);
 TEXELS(Reservoirs, ReservoirTexel);
 TEXELS(Counters, TraceCounters);
-TEXELS(ColorTexels, vec4);
+TEXELS(IndirectTexels, IndirectTexel);
 TEXELS(SkyTexels, vec4);
 TEXELS(ExposureSums, ExposureSum);
 TEXELS(MoverSums, MoverSum);

@@ -104,7 +104,7 @@ void main() {
         return;
     }
     LightTexel light = LightTexels(view.light).entries[index];
-    vec3 indirect = ColorTexels(view.indirect).entries[index].rgb;
+    vec3 indirect = indirect_facing(IndirectTexels(view.indirect).entries[index], unpack_unit_vector(surface.normal));
     vec4 program = imageLoad(color_images[view.color], ivec2(pixel));
     if (view.radiance != 0ul) {
         vec3 linear = radiance(surface, light, indirect, linear_from_srgb(program.rgb));

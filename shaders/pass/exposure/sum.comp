@@ -38,7 +38,7 @@ vec2 pixel_sums(ViewRecord view, uvec2 pixel) {
         program = clamp((program - (1.0 - fog) * fog_color(view, draw)) / max(fog, 0.05), 0.0, 1.0);
     }
     program = linear_from_srgb(program);
-    vec3 indirect = ColorTexels(view.indirect).entries[index].rgb;
+    vec3 indirect = indirect_facing(IndirectTexels(view.indirect).entries[index], unpack_unit_vector(surface.normal));
     vec3 traced = radiance(surface, LightTexels(view.light).entries[index], indirect, program);
     traced = fog * min(traced, 4.0);
     program *= fog;

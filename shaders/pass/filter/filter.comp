@@ -1,5 +1,6 @@
 // One step of an edge-avoiding a-trous filter over indirect light (Dammertz and others, Edge-Avoiding
-// A-Trous Wavelet Transform for fast Global Illumination Filtering, HPG 2010): surfaces guide it, not light.
+// A-Trous Wavelet Transform for fast Global Illumination Filtering, HPG 2010): surfaces guide it, not light. Both bands of
+// light are filtered, so that what faces a little aside helps and yet no edge between normals is lost.
 #version 460
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_control_flow_attributes : require
@@ -19,9 +20,7 @@ const float KERNEL[3] = float[3](0.25, 0.125, 0.0625);
 // How far from the plane of the middle a surface may lie, in distances between taps.
 const float PLANE_TOLERANCE = 1.5;
 
-float thirty_second_power(float x) {
-    x *= x;
-    x *= x;
+float eighth_power(float x) {
     x *= x;
     x *= x;
     return x * x;
@@ -35,18 +34,17 @@ void main() {
         return;
     }
     SurfaceTexels surfaces = SurfaceTexels(view.surfaces);
-    ColorTexels source = ColorTexels(push.source);
+    IndirectTexels source = IndirectTexels(push.source);
     uint index = uint(pixel.y * size.x + pixel.x);
-    vec4 middle = source.entries[index];
-    vec3 color = middle.rgb;
-    // Depth is 0 where nothing is seen, and negative for the view's second kind of surfaces.
-    if (middle.w != 0.0) {
+    IndirectTexel middle = source.entries[index];
+    if (middle.depth != 0.0) {
         vec3 normal = unpack_unit_vector(surfaces.entries[index].normal);
-        float depth = abs(middle.w);
+        float depth = abs(middle.depth);
         vec3 position = seen_position(view, vec2(pixel), depth);
         float tolerance = 1.0 / (PLANE_TOLERANCE * float(push.step) * seen_height(view, depth));
         float weight = KERNEL[0];
-        color *= weight;
+        middle.color *= weight;
+        middle.towards *= weight;
         [[dont_unroll]] for (int i = 0; i < 9; ++i) {
             ivec2 offset = ivec2(i % 3, i / 3) - 1;
             ivec2 at = pixel + offset * int(push.step);
@@ -54,18 +52,20 @@ void main() {
                 continue;
             }
             uint tap = uint(at.y * size.x + at.x);
-            vec4 other = source.entries[tap];
-            if (sign(other.w) != sign(middle.w)) {
+            IndirectTexel other = source.entries[tap];
+            if (sign(other.depth) != sign(middle.depth)) {
                 continue;
             }
-            float from_plane = abs(dot(normal, seen_position(view, vec2(at), abs(other.w)) - position));
+            float from_plane = abs(dot(normal, seen_position(view, vec2(at), abs(other.depth)) - position));
             float facing = max(dot(normal, unpack_unit_vector(surfaces.entries[tap].normal)), 0.0);
-            float share = KERNEL[abs(offset.x) + abs(offset.y)] * thirty_second_power(facing)
+            float share = KERNEL[abs(offset.x) + abs(offset.y)] * eighth_power(facing)
                 * max(1.0 - from_plane * tolerance, 0.0);
-            color += share * other.rgb;
+            middle.color += share * other.color;
+            middle.towards += share * other.towards;
             weight += share;
         }
-        color /= weight;
+        middle.color /= weight;
+        middle.towards /= weight;
     }
-    ColorTexels(push.target).entries[index] = vec4(color, middle.w);
+    IndirectTexels(push.target).entries[index] = middle;
 }

@@ -12,6 +12,9 @@
 #include "pathtrace/finite.glsl"
 #include "pathtrace/reservoir.glsl"
 
+// Of radiance a + dot(b, w) over a hemisphere, cosine-distributed directions w have mean radiance times w of b / 4 aside of the
+// normal, and irradiance over pi grows by 2/3 b along the normal.
+const float TOWARDS_SCALE = 8.0 / 3.0;
 // How dark things that touch a surface with baked light make it.
 const float CONTACT_STRENGTH = 0.85;
 
@@ -26,6 +29,9 @@ struct Shade {
 // Sums over the samples of a pixel.
 struct Sums {
     Channels light;
+    // Luminance of indirect light times where it comes from, aside of the normal; and of what is open.
+    vec3 towards;
+    vec3 towards_open;
     Shade shade;
 };
 
@@ -86,12 +92,16 @@ void take_shade(ViewRecord view, inout Path path, inout RayPlan asked, RayPlan p
     ++path.stage;
 }
 
-void add_sample(ViewRecord view, Channels light, inout Channels sums) {
-    sums.direct += limited(view, light.direct);
-    sums.indirect += limited(view, light.indirect);
-    sums.specular += limited(view, light.specular);
-    sums.open += light.open;
-    sums.sky += light.sky;
+// `aside` is where the sample left the surface to, without its part along the normal.
+void add_sample(ViewRecord view, Channels light, vec3 aside, inout Sums sums) {
+    vec3 indirect = limited(view, light.indirect);
+    sums.light.direct += limited(view, light.direct);
+    sums.light.indirect += indirect;
+    sums.light.specular += limited(view, light.specular);
+    sums.light.open += light.open;
+    sums.light.sky += light.sky;
+    sums.towards += luminance(indirect) * aside;
+    sums.towards_open += luminance(light.sky + light.open * (is_relit(view) ? vec3(0.0) : view.ambient)) * aside;
 }
 
 // The ray of a path's stage. Where lights are kept over time, the first surface asks by those.
@@ -108,7 +118,7 @@ RayPlan plan_seen(ViewRecord view, inout Path path, PathRandom random, uvec2 pix
 
 // The samples of a pixel. `seen` reflects what it is asked for: its albedo meets the light when the picture is made.
 Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mask, uint random_pixel) {
-    Sums sums = Sums(no_channels(), Shade(0.0, vec3(0.0), vec3(0.0)));
+    Sums sums = Sums(no_channels(), vec3(0.0), vec3(0.0), Shade(0.0, vec3(0.0), vec3(0.0)));
     bool is_baked = kind == SURFACE_BAKED;
     PathRandom random = PathRandom(Random(random_pixel, view.accumulated), view.seed);
     vec3 to_viewer = to_eye(view, seen.start);
@@ -137,7 +147,7 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
             take_ray(view, path, plan, met, hit, light);
         }
         if (path.is_over) {
-            add_sample(view, light, sums.light);
+            add_sample(view, light, path.left - seen.normal * dot(seen.normal, path.left), sums);
             light = no_channels();
             path = path_from(seen, to_viewer, mask, cone);
             ++random.random.sample_index;
@@ -165,13 +175,13 @@ vec3 light_left(ViewRecord view, Shade shade) {
 LightTexel found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel) {
     uint kind = surface_kind(surface);
     if (kind == SURFACE_BAKED && view.has_movers == 0u) {
-        return LightTexel(vec3(0.0), vec3(1.0), vec3(0.0));
+        return LightTexel(vec3(0.0), vec3(1.0), vec3(0.0), vec3(0.0));
     }
     SurfacePoint seen = seen_point(surface);
     uint index = pixel.y * view.width + pixel.x;
     Sums sums = gather(view, seen, pixel, kind, surface_ray_mask(surface), hash(index + hash(view.seed)));
     if (kind == SURFACE_BAKED) {
-        return LightTexel(vec3(0.0), light_left(view, sums.shade), vec3(0.0));
+        return LightTexel(vec3(0.0), light_left(view, sums.shade), vec3(0.0), vec3(0.0));
     }
     float samples = float(view.samples);
     Channels light = sums.light;
@@ -198,7 +208,9 @@ LightTexel found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel) {
     if (kind == SURFACE_CATCHER) {
         light_scale /= max(open_light(view, seen.start, seen.normal), 1e-3);
     }
-    return LightTexel(light.direct * light_scale, light.indirect * light_scale, light.specular * scale);
+    // Only surfaces whose indirect light is indirect light alone.
+    vec3 towards = kind == SURFACE_LIT ? sums.towards * (is_replaced ? luminance(view.bounce) : 1.0) + sums.towards_open : vec3(0.0);
+    return LightTexel(light.direct * light_scale, light.indirect * light_scale, light.specular * scale, TOWARDS_SCALE * towards * scale);
 }
 
 void main() {
@@ -209,7 +221,7 @@ void main() {
     }
     uint index = pixel.y * view.width + pixel.x;
     SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
-    LightTexel light = LightTexel(vec3(0.0), vec3(0.0), vec3(0.0));
+    LightTexel light = LightTexel(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     if (surface_kind(surface) != SURFACE_NONE) {
         light = found_light(view, surface, pixel);
         if (view.accumulated != 0u) {
@@ -218,6 +230,7 @@ void main() {
             light.direct = mix(before.direct, light.direct, share);
             light.indirect = mix(before.indirect, light.indirect, share);
             light.specular = mix(before.specular, light.specular, share);
+            light.towards = mix(before.towards, light.towards, share);
         }
     }
     LightTexels(view.light).entries[index] = light;
@@ -225,5 +238,5 @@ void main() {
     uint kind = surface_kind(surface);
     float depth = max(seen_depth(view, surface.start), 1e-20);
     bool is_second = kind == SURFACE_CATCHER || kind == SURFACE_BAKED;
-    ColorTexels(push.target).entries[index] = vec4(light.indirect, kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth);
+    IndirectTexels(push.target).entries[index] = IndirectTexel(light.indirect, light.towards, kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth);
 }

@@ -51,6 +51,7 @@ pub fn pathtrace() -> Vec<StructDescription> {
         ViewRecord,
         SurfaceTexel,
         LightTexel,
+        IndirectTexel,
         RadianceTexel,
         TraceCounters,
         ReservoirTexel,

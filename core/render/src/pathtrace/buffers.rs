@@ -6,7 +6,8 @@ use afterglow_gpu::{
 };
 use afterglow_layout::SharedStruct;
 use afterglow_records::{
-    Exposure, ExposureSum, LightTexel, MoverSum, RadianceTexel, ReservoirTexel, SurfaceTexel, TraceCounters,
+    Exposure, ExposureSum, IndirectTexel, LightTexel, MoverSum, RadianceTexel, ReservoirTexel, SurfaceTexel,
+    TraceCounters,
 };
 
 use crate::target::{COLOR_FORMAT, Target};
@@ -15,8 +16,6 @@ use crate::target::{COLOR_FORMAT, Target};
 pub(crate) const VISIBILITY_FORMAT: vk::Format = vk::Format::R32G32_UINT;
 /// Pixels along a side of a workgroup that sums for exposure.
 const SUM_EDGE: u32 = 16;
-/// Bytes of indirect light, a pixel.
-const INDIRECT_BYTES: u64 = 16;
 
 /// A buffer and how the last frame left it.
 pub(crate) struct Tracked {
@@ -84,8 +83,8 @@ impl ViewBuffers {
             reservoirs: None,
             light: Vec::new(),
             indirect: [
-                buffer("indirect", pixels * INDIRECT_BYTES)?,
-                buffer("indirect", pixels * INDIRECT_BYTES)?,
+                buffer("indirect", pixels * stride::<IndirectTexel>())?,
+                buffer("indirect", pixels * stride::<IndirectTexel>())?,
             ],
             sums: buffer("exposure sums", u64::from(sum_count(size)) * stride::<ExposureSum>())?,
             exposure: buffer("exposure", stride::<Exposure>())?,

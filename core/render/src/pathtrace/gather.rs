@@ -13,6 +13,7 @@ use glam::{DVec3, Mat4, Vec3};
 
 use super::arrange::Mark;
 use super::geometry::GeometryReader;
+use super::kept_tree::KeptTree;
 use super::lights::{LightList, MOST_TRIANGLES, ShiningTriangle};
 use super::lists::FramePlace;
 use super::options::{Displaced, PathtraceOptions};
@@ -59,8 +60,14 @@ pub(crate) struct Surfaces<'a> {
 
 impl Surfaces<'_> {
     /// Makes the list of lights, and names those that are triangles in their records.
-    pub(crate) fn list_lights(&mut self, lights: &[SceneLight], origin: DVec3, options: &PathtraceOptions) {
-        self.lights = LightList::new(lights, &self.shining, origin, options.move_light);
+    pub(crate) fn list_lights(
+        &mut self,
+        lights: &[SceneLight],
+        origin: DVec3,
+        options: &PathtraceOptions,
+        tree: &mut KeptTree,
+    ) {
+        self.lights = LightList::new(lights, &self.shining, origin, options.move_light, tree);
         let first = self.lights.first_triangle;
         for record in &mut self.records {
             if record.first_light != NO_LIGHT {

@@ -104,6 +104,12 @@ impl Bounds {
     }
 }
 
+/// The box around a light.
+pub(super) fn box_of(light: &LightSource) -> (Vec3, Vec3) {
+    let Bounds { least, greatest, .. } = Bounds::of(light);
+    (least, greatest)
+}
+
 /// A light on its way into the tree.
 #[derive(Clone, Copy)]
 struct Leaf {

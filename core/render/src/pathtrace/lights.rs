@@ -8,7 +8,7 @@ use afterglow_scene::{LightOrigin, LightShape, SceneLight, linear_from_srgb};
 use bytemuck::Zeroable;
 use glam::{DVec3, Vec3};
 
-use super::light_tree;
+use super::kept_tree::KeptTree;
 
 /// Far lights that are looked at; each costs time wherever one of them is asked.
 const MOST_FAR: usize = 16;
@@ -76,12 +76,14 @@ pub(crate) struct LightList {
 }
 
 impl LightList {
-    /// A scene's lights and shining triangles, relative to `origin`; the light of the scene that `moved` names is displaced.
+    /// A scene's lights and shining triangles, relative to `origin`; the light of the scene that `moved` names is displaced. `tree` is
+    /// the last frame's.
     pub(crate) fn new(
         lights: &[SceneLight],
         triangles: &[ShiningTriangle],
         origin: DVec3,
         moved: Option<(usize, Vec3)>,
+        tree: &mut KeptTree,
     ) -> Self {
         let displacement = |index: usize| match moved {
             Some((light, displacement)) if light == index => displacement,
@@ -99,7 +101,7 @@ impl LightList {
         let first_triangle = sources.len();
         let lamps = Lamps::of(lights, first_triangle - count_of(&sources, LIGHT_SPHERE), displacement);
         sources.extend(triangles.iter().take(MOST_TRIANGLES).map(triangle_source));
-        let nodes = light_tree::build(&mut sources, far_count);
+        let nodes = tree.over(&mut sources, far_count);
         Self { sources, nodes, far_count, lamps, first_triangle }
     }
 }
@@ -195,7 +197,7 @@ mod tests {
     fn places_are_relative_to_the_origin_and_can_be_moved() {
         let light = point(Vec3::new(1.0, 2.0, 3.0), LightOrigin::Gl(0));
         let origin = DVec3::new(1.0, 0.0, 0.0);
-        let list = LightList::new(&[light, light], &[], origin, Some((1, Vec3::Y)));
+        let list = LightList::new(&[light, light], &[], origin, Some((1, Vec3::Y)), &mut KeptTree::default());
         assert_eq!(list.sources[0].position, [0.0, 2.0, 3.0]);
         assert_eq!(list.sources[1].position, [0.0, 3.0, 3.0]);
     }
@@ -225,7 +227,7 @@ mod tests {
             radiance: [1.0; 3],
             is_one_sided: true,
         };
-        let list = LightList::new(&scene, &[triangle; 2], DVec3::ZERO, None);
+        let list = LightList::new(&scene, &[triangle; 2], DVec3::ZERO, None, &mut KeptTree::default());
         let kinds: Vec<_> = list.sources.iter().map(|source| source.kind).collect();
         assert_eq!(kinds, [LIGHT_FAR, LIGHT_POINT, LIGHT_SPHERE, LIGHT_TRIANGLE, LIGHT_TRIANGLE]);
         assert_eq!((list.far_count, list.lamps.first_light, list.first_triangle), (1, 2, 3));

@@ -19,6 +19,7 @@ mod gather;
 mod geometry;
 mod hardware;
 mod kept;
+mod kept_tree;
 mod light_cone;
 mod light_tree;
 mod lights;

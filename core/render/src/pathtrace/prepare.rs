@@ -121,7 +121,7 @@ pub(crate) fn prepare(
             buffers.reserve_radiance(input.gpu)?;
         }
     }
-    surfaces.list_lights(&tracing.scene.lights, origin, &tracer.options);
+    surfaces.list_lights(&tracing.scene.lights, origin, &tracer.options, &mut tracer.light_tree);
     tracer.kept.begin(&surfaces.lights);
     let world = tracer.world.build(input.frame, &surfaces.traced, &surfaces.lights, origin, input.arena)?;
     for (traced, reach) in surfaces.traced.iter().zip(&tracer.world.reaches) {

@@ -11,6 +11,7 @@ use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
 use super::change::History;
 use super::kept::KeptLights;
+use super::kept_tree::KeptTree;
 use super::lists::Lists;
 use super::options::{Mode, PathtraceOptions};
 use super::pipelines::TracePipelines;
@@ -61,6 +62,7 @@ pub(crate) struct Tracer {
     /// Of each view.
     pub(crate) history: Vec<History>,
     pub(crate) kept: KeptLights,
+    pub(crate) light_tree: KeptTree,
     /// What rays see of the sky; none before one was first seen.
     pub(crate) sky: Option<SkyMap>,
     /// The last frame was seen by rays of the camera.
@@ -149,6 +151,7 @@ impl Tracer {
             world,
             world_state: ResourceState::SETTLED,
             lists: Lists::new(gpu),
+            light_tree: KeptTree::default(),
             lists_state: ResourceState::SETTLED,
             pipelines,
             buffers: None,

@@ -155,6 +155,9 @@ fn write(
     picture: &Picture,
 ) -> Result<(), Failure> {
     output::write_image(&destination.of_frame(frame), &picture.image)?;
+    if of_errors.is_some() && picture.samples < 2 {
+        return Err(Failure::Usage("one sample has no standard error: ask for more with --spp".into()));
+    }
     match (of_errors, &picture.standard_error) {
         (Some(path), Some(error)) => output::write_image(&path.of_frame(frame), error),
         _ => Ok(()),

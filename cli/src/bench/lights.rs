@@ -67,6 +67,9 @@ struct Row {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let scene = afterglow_scene_file::load(&arguments.scene)
         .map_err(|error| Failure::input(&error.path, error.problem))?;
+    if scene.sphere_lights.is_empty() {
+        return Err(Failure::input(&arguments.scene, "has no sphere lights"));
+    }
     let mut bench = Bench::new(arguments)?;
     let prints = arguments.json.as_deref() != Some(Path::new("-"));
     let mut rows = Vec::new();

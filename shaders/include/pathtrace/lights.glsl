@@ -9,7 +9,8 @@
 #include "sampling.glsl"
 #include "tables.glsl"
 
-#define LONGEST_RAY 1e9
+// Beyond the farthest coordinates that structures hold, 1e11.
+#define LONGEST_RAY 1e13
 #define PI 3.14159265358979
 
 // A point of a light as a place sees it.

@@ -1,87 +1,70 @@
-//! Light from all directions in two bands of real spherical harmonics: the twin of `spherical_harmonics.glsl`.
+//! Indirect light in two bands of spherical harmonics: the twin of `spherical_harmonics.glsl`.
 
 use glam::Vec3;
-use std::f32::consts::PI;
 
-const SH_BAND_0: f32 = 0.282_094_8;
-const SH_BAND_1: f32 = 0.488_602_52;
+use crate::color::luminance;
 
-/// Radiance by direction, linear RGB.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SphericalHarmonics {
-    /// Of Y00, then Y1-1, Y10, Y11, which go with y, z, x.
-    pub coefficients: [Vec3; 4],
+/// From the mean of luminance times [`aside_of`] to the second band: of radiance a + b . w over a hemisphere,
+/// cosine-distributed directions w have mean radiance times w of b / 4 aside of the normal, and irradiance over pi grows
+/// by 2/3 b along the normal.
+pub const TOWARDS_SCALE: f32 = 8.0 / 3.0;
+
+/// What a direction in which light was found adds to the second band: its part aside of the normal.
+pub fn aside_of(direction: Vec3, normal: Vec3) -> Vec3 {
+    direction - normal * normal.dot(direction)
 }
 
-/// What radiance that comes from a unit direction adds to the coefficients; samples are to be divided by their
-/// density in solid angle.
-pub fn project(direction: Vec3, radiance: Vec3) -> SphericalHarmonics {
-    SphericalHarmonics {
-        coefficients: [
-            SH_BAND_0 * radiance,
-            SH_BAND_1 * direction.y * radiance,
-            SH_BAND_1 * direction.z * radiance,
-            SH_BAND_1 * direction.x * radiance,
-        ],
+/// Irradiance over pi where a surface faces along a unit vector: `color` is the first band, linear RGB, `towards` how its
+/// luminance grows along each axis; limited to a quarter and four times the first.
+pub fn irradiance_facing(color: Vec3, towards: Vec3, normal: Vec3) -> Vec3 {
+    let brightness = luminance(color);
+    match brightness > 0.0 {
+        true => color * (1.0 + towards.dot(normal) / brightness).clamp(0.25, 4.0),
+        false => color,
     }
-}
-
-/// Radiance from a unit direction, as smooth as two bands are; may be negative.
-pub fn evaluate(sh: &SphericalHarmonics, direction: Vec3) -> Vec3 {
-    SH_BAND_0 * sh.coefficients[0] + SH_BAND_1 * linear(sh, direction)
-}
-
-/// Irradiance of a surface that faces along a unit vector: bands are convolved with the clamped cosine, whose
-/// factors are pi and 2 pi / 3 (Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment
-/// Maps, 2001, equation 8). May be negative opposite to strong light.
-pub fn irradiance(sh: &SphericalHarmonics, normal: Vec3) -> Vec3 {
-    PI * SH_BAND_0 * sh.coefficients[0] + 2.0 * PI / 3.0 * SH_BAND_1 * linear(sh, normal)
-}
-
-fn linear(sh: &SphericalHarmonics, direction: Vec3) -> Vec3 {
-    sh.coefficients[1] * direction.y + sh.coefficients[2] * direction.z + sh.coefficients[3] * direction.x
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::directions::cosine_direction;
+    use glam::Vec2;
 
-    /// Coefficients of the radiance a + b . w. The axes' six directions integrate polynomials up to the third degree
-    /// exactly, and these are of the second.
-    fn projected(a: Vec3, b: [Vec3; 3]) -> SphericalHarmonics {
-        let mut sum = SphericalHarmonics::default();
-        for w in Vec3::AXES.into_iter().flat_map(|axis| [axis, -axis]) {
-            let radiance = a + b[0] * w.x + b[1] * w.y + b[2] * w.z;
-            let part = project(w, radiance * (4.0 * PI / 6.0));
-            for (coefficient, more) in sum.coefficients.iter_mut().zip(part.coefficients) {
-                *coefficient += more;
-            }
+    /// Both bands of radiance 1 + b . w, gathered along a normal by a grid of cosine-distributed directions.
+    fn gathered(b: Vec3, normal: Vec3) -> (Vec3, Vec3) {
+        const SIDE: u32 = 256;
+        let (mut sum, mut towards) = (0.0, Vec3::ZERO);
+        for i in 0..SIDE * SIDE {
+            let random = (Vec2::new((i % SIDE) as f32, (i / SIDE) as f32) + 0.5) / SIDE as f32;
+            let w = cosine_direction(normal, random);
+            let radiance = 1.0 + b.dot(w);
+            sum += radiance;
+            towards += radiance * aside_of(w, normal);
         }
-        sum
+        let share = 1.0 / (SIDE * SIDE) as f32;
+        (Vec3::splat(sum * share), TOWARDS_SCALE * share * towards)
     }
 
     #[test]
-    fn two_bands_of_radiance_give_their_irradiance_exactly() {
-        let a = Vec3::new(1.0, 2.0, 0.5);
-        let b = [Vec3::new(0.1, -0.4, 0.0), Vec3::new(0.3, 0.7, -0.2), Vec3::new(0.5, 0.0, 0.1)];
-        let sh = projected(a, b);
-        for i in 0..64 {
-            let random = crate::random::independent(i, 0, 0, 0).truncate().truncate();
-            let n = crate::caps::sphere_direction(random);
-            let along = b[0] * n.x + b[1] * n.y + b[2] * n.z;
-            let expected = PI * a + 2.0 * PI / 3.0 * along;
-            assert!((irradiance(&sh, n) - expected).abs().max_element() < 4e-6, "{n}");
-            assert!((evaluate(&sh, n) - (a + along)).abs().max_element() < 2e-6, "{n}");
-        }
+    fn light_is_exact_along_the_normal_and_grows_aside_as_its_irradiance_does() {
+        let normal = Vec3::new(0.36, 0.48, 0.8);
+        let b = Vec3::new(0.3, -0.2, 0.25);
+        let (color, towards) = gathered(b, normal);
+        // Irradiance over pi of a + b . w is a + 2/3 b . n.
+        let exact = |n: Vec3| 1.0 + 2.0 / 3.0 * b.dot(n);
+        assert!((irradiance_facing(color, towards, normal).x - exact(normal)).abs() < 1e-4);
+        assert!((towards - 2.0 / 3.0 * aside_of(b, normal)).abs().max_element() < 1e-3, "{towards}");
+        // A little aside: what the tilt adds along the normal is of the second order.
+        let tilted = (normal + 0.02 * normal.cross(Vec3::X).normalize()).normalize();
+        let found = irradiance_facing(color, towards, tilted).x;
+        assert!((found - exact(tilted)).abs() < 4e-4, "{found} {}", exact(tilted));
     }
 
     #[test]
-    fn coefficients_are_normalised() {
-        let sh = projected(Vec3::ONE, [Vec3::ZERO, Vec3::ZERO, Vec3::splat(1.0)]);
-        assert!((sh.coefficients[0].x - 3.544_907_7).abs() < 1e-6, "{sh:?}");
-        assert!((sh.coefficients[2].x - 2.046_653_4).abs() < 1e-6, "{sh:?}");
-        let sh = projected(Vec3::ONE, [Vec3::ZERO, Vec3::ZERO, Vec3::splat(0.5)]);
-        assert!((irradiance(&sh, Vec3::Z).x - 4.188_790_2).abs() < 2e-6);
-        assert!((irradiance(&sh, Vec3::NEG_Z).x - 2.094_395_1).abs() < 2e-6);
+    fn light_is_never_negative_and_nothing_stays_nothing() {
+        let loud = Vec3::new(-90.0, 0.0, 0.0);
+        assert_eq!(irradiance_facing(Vec3::ONE, loud, Vec3::X), Vec3::splat(0.25));
+        assert_eq!(irradiance_facing(Vec3::ONE, loud, Vec3::NEG_X), Vec3::splat(4.0));
+        assert_eq!(irradiance_facing(Vec3::ZERO, loud, Vec3::X), Vec3::ZERO);
     }
 }

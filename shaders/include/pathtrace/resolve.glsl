@@ -4,13 +4,12 @@
 #define AFTERGLOW_PATHTRACE_RESOLVE_GLSL
 
 #include "color.glsl"
+#include "spherical_harmonics.glsl"
 #include "surface.glsl"
 
-// Irradiance over pi of indirect light where a surface faces along a unit vector. One band's colour is for both; how much more
-// comes from one side than from the other is limited, because few samples say it loudly.
+// Irradiance over pi of indirect light where a surface faces along a unit vector.
 vec3 indirect_facing(IndirectTexel light, vec3 normal) {
-    float brightness = luminance(light.color);
-    return brightness > 0.0 ? light.color * clamp(1.0 + dot(light.towards, normal) / brightness, 0.25, 4.0) : light.color;
+    return irradiance_facing(light.color, light.towards, normal);
 }
 
 // Radiance of a pixel before exposure. `program` is the picture that the program itself made, linear.

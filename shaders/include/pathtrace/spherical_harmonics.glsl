@@ -1,35 +1,26 @@
-// Light from all directions in two bands of real spherical harmonics. The twin of core/sampling/src/spherical_harmonics.rs.
+// Indirect light in two bands of spherical harmonics: what a surface gets along the normal where it was gathered, and how its
+// luminance grows along each axis. The twin of core/sampling/src/spherical_harmonics.rs.
 
 #ifndef AFTERGLOW_PATHTRACE_SPHERICAL_HARMONICS_GLSL
 #define AFTERGLOW_PATHTRACE_SPHERICAL_HARMONICS_GLSL
 
-// Coefficients of radiance, linear RGB: Y00, then Y1-1, Y10, Y11, which go with y, z, x.
-struct SphericalHarmonics {
-    vec3 coefficients[4];
-};
+#include "color.glsl"
 
-#define SH_BAND_0 0.282094791774
-#define SH_BAND_1 0.488602511903
+// Of radiance a + dot(b, w) over a hemisphere, cosine-distributed directions w have mean radiance times w of b / 4 aside of the
+// normal, and irradiance over pi grows by 2/3 b along the normal.
+const float TOWARDS_SCALE = 8.0 / 3.0;
 
-// What radiance that comes from a unit direction adds to the coefficients; samples are to be divided by their
-// density in solid angle.
-SphericalHarmonics project(vec3 direction, vec3 radiance) {
-    return SphericalHarmonics(vec3[4](SH_BAND_0 * radiance, SH_BAND_1 * direction.y * radiance,
-        SH_BAND_1 * direction.z * radiance, SH_BAND_1 * direction.x * radiance));
+// What a direction in which light was found adds to the second band, before the mean and TOWARDS_SCALE: no part along the normal,
+// where the first band is exact.
+vec3 aside_of(vec3 direction, vec3 normal) {
+    return direction - normal * dot(normal, direction);
 }
 
-// Radiance from a unit direction, as smooth as two bands are; may be negative.
-vec3 evaluate(SphericalHarmonics sh, vec3 direction) {
-    vec3 linear = sh.coefficients[1] * direction.y + sh.coefficients[2] * direction.z + sh.coefficients[3] * direction.x;
-    return SH_BAND_0 * sh.coefficients[0] + SH_BAND_1 * linear;
-}
-
-// Irradiance of a surface that faces along a unit vector: bands are convolved with the clamped cosine, whose
-// factors are pi and 2 pi / 3 (Ramamoorthi and Hanrahan, An Efficient Representation for Irradiance Environment Maps, 2001,
-// equation 8). May be negative opposite to strong light.
-vec3 irradiance(SphericalHarmonics sh, vec3 normal) {
-    vec3 linear = sh.coefficients[1] * normal.y + sh.coefficients[2] * normal.z + sh.coefficients[3] * normal.x;
-    return 3.14159265359 * SH_BAND_0 * sh.coefficients[0] + 2.09439510239 * SH_BAND_1 * linear;
+// Irradiance over pi where a surface faces along a unit vector. One band's colour is for both; how much more comes from one side
+// than from the other is limited, because few samples say it loudly.
+vec3 irradiance_facing(vec3 color, vec3 towards, vec3 normal) {
+    float brightness = luminance(color);
+    return brightness > 0.0 ? color * clamp(1.0 + dot(towards, normal) / brightness, 0.25, 4.0) : color;
 }
 
 #endif

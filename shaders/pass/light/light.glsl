@@ -11,10 +11,8 @@
 #include "pathtrace/eye.glsl"
 #include "pathtrace/finite.glsl"
 #include "pathtrace/reservoir.glsl"
+#include "pathtrace/spherical_harmonics.glsl"
 
-// Of radiance a + dot(b, w) over a hemisphere, cosine-distributed directions w have mean radiance times w of b / 4 aside of the
-// normal, and irradiance over pi grows by 2/3 b along the normal.
-const float TOWARDS_SCALE = 8.0 / 3.0;
 // How dark things that touch a surface with baked light make it.
 const float CONTACT_STRENGTH = 0.85;
 
@@ -101,7 +99,8 @@ void add_sample(ViewRecord view, Channels light, vec3 aside, inout Sums sums) {
     sums.light.open += light.open;
     sums.light.sky += light.sky;
     sums.towards += luminance(indirect) * aside;
-    sums.towards_open += luminance(light.sky + light.open * (is_relit(view) ? vec3(0.0) : view.ambient)) * aside;
+    vec3 open = light.sky + (is_relit(view) ? vec3(0.0) : light.open * view.ambient);
+    sums.towards_open += luminance(open) * aside;
 }
 
 // The ray of a path's stage. Where lights are kept over time, the first surface asks by those.
@@ -147,7 +146,7 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
             take_ray(view, path, plan, met, hit, light);
         }
         if (path.is_over) {
-            add_sample(view, light, path.left - seen.normal * dot(seen.normal, path.left), sums);
+            add_sample(view, light, aside_of(path.left, seen.normal), sums);
             light = no_channels();
             path = path_from(seen, to_viewer, mask, cone);
             ++random.random.sample_index;
@@ -209,8 +208,12 @@ LightTexel found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel) {
         light_scale /= max(open_light(view, seen.start, seen.normal), 1e-3);
     }
     // Only surfaces whose indirect light is indirect light alone.
-    vec3 towards = kind == SURFACE_LIT ? sums.towards * (is_replaced ? luminance(view.bounce) : 1.0) + sums.towards_open : vec3(0.0);
-    return LightTexel(light.direct * light_scale, light.indirect * light_scale, light.specular * scale, TOWARDS_SCALE * towards * scale);
+    vec3 towards = vec3(0.0);
+    if (kind == SURFACE_LIT) {
+        towards = sums.towards * (is_replaced ? luminance(view.bounce) : 1.0) + sums.towards_open;
+    }
+    return LightTexel(light.direct * light_scale, light.indirect * light_scale, light.specular * scale,
+        TOWARDS_SCALE * towards * scale);
 }
 
 void main() {
@@ -238,5 +241,6 @@ void main() {
     uint kind = surface_kind(surface);
     float depth = max(seen_depth(view, surface.start), 1e-20);
     bool is_second = kind == SURFACE_CATCHER || kind == SURFACE_BAKED;
-    IndirectTexels(push.target).entries[index] = IndirectTexel(light.indirect, light.towards, kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth);
+    depth = kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth;
+    IndirectTexels(push.target).entries[index] = IndirectTexel(light.indirect, light.towards, depth);
 }

@@ -117,12 +117,8 @@ void put_numbers(Input given) {
 }
 
 void put_light(Input given) {
-    SphericalHarmonics light = project(given.axis, given.diffuse);
-    for (uint i = 0u; i < 4u; ++i) {
-        put(light.coefficients[i]);
-    }
-    put(evaluate(light, given.wo));
-    put(irradiance(light, given.wo));
+    put(aside_of(given.axis, given.wo));
+    put(irradiance_facing(given.diffuse, given.axis * given.diffuse.x, given.wo));
 }
 
 void main() {

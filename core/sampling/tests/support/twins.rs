@@ -11,7 +11,7 @@ use afterglow_sampling::finite::finite_radiance;
 use afterglow_sampling::heuristics::{balance, power_heuristic};
 use afterglow_sampling::microfacet::{alpha_of, ggx_d, sample_visible_normal, schlick, smith_g1};
 use afterglow_sampling::random::{Random, independent, pcg4d, random_2d};
-use afterglow_sampling::spherical_harmonics::{evaluate, irradiance, project};
+use afterglow_sampling::spherical_harmonics::{aside_of, irradiance_facing};
 use bytemuck::{Pod, Zeroable};
 use glam::{UVec4, Vec2, Vec3, Vec4};
 
@@ -183,13 +183,10 @@ fn numbers(given: &Input, fields: &mut Fields) {
 }
 
 fn light(given: &Input, fields: &mut Fields) {
-    let light = project(given.axis.into(), given.diffuse.into());
-    for coefficient in light.coefficients {
-        fields.ulps("project", &coefficient.to_array());
-    }
+    let (axis, color, wo) = (Vec3::from(given.axis), Vec3::from(given.diffuse), Vec3::from(given.wo));
     // Terms of either sign: their sum is as near as the largest of them.
-    let most = Vec3::from(given.diffuse).max_element() * 2e-6;
-    let wo = Vec3::from(given.wo);
-    fields.put("evaluate", Tolerance::Absolute(most), &evaluate(&light, wo).to_array());
-    fields.put("irradiance", Tolerance::Absolute(most), &irradiance(&light, wo).to_array());
+    fields.put("aside_of", Tolerance::Absolute(2e-6), &aside_of(axis, wo).to_array());
+    let most = color.max_element() * 2e-6;
+    let facing = irradiance_facing(color, axis * color.x, wo);
+    fields.put("irradiance_facing", Tolerance::Absolute(10.0 * most), &facing.to_array());
 }

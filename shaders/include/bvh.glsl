@@ -1,10 +1,10 @@
-// Rays through a two-level BVH. Twin of core/bvh/src/traverse.rs, step by step.
+// Rays through a two-level BVH. Twin of core/bvh/src/traverse.rs: the same visits in the same order.
 //
 // The includer enables GL_EXT_buffer_reference, GL_EXT_scalar_block_layout and
 // GL_EXT_shader_explicit_arithmetic_types_int64, and defines
 //     bool accept_hit(uint instance, uint primitive, vec2 barycentrics);
 // which is asked only for triangles and spheres that are flagged alpha-tested, or whose instance is. It may define
-// BVH_SPHERES, a constant, as false where no structure holds spheres: rays are 8 % faster then. Call bvh_trace from
+// BVH_SPHERES, a constant, as false where no structure holds spheres: rays are faster then. Call bvh_trace from
 // one place, in a loop: each call site is compiled anew.
 
 #ifndef AFTERGLOW_BVH_GLSL

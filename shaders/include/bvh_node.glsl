@@ -140,7 +140,8 @@ uint bvh_child(uvec4 children, int met) {
 }
 
 // Meets the triangle at `place`, or the sphere beyond t_min; its number and flags are valid where it is met.
-bool bvh_meet_triangle(uint64_t structure, uint place, BvhRay ray, float t_min, out TriangleHit hit, out uint primitive, out uint flags) {
+bool bvh_meet_triangle(uint64_t structure, uint place, BvhRay ray, float t_min, out TriangleHit hit, out uint primitive,
+    out uint flags) {
     uvec4 first = bvh_unit(structure, place);
     uvec4 second = bvh_unit(structure, place + 1u);
     uvec4 third = bvh_unit(structure, place + 2u);

@@ -16,7 +16,8 @@ use glam::Vec3;
 pub enum Quality {
     /// Surface-area heuristic over bins: for geometry that changes.
     Fast,
-    /// Clusters of large triangles' parts, improved by reinsertion: for what is built once.
+    /// The cheaper of a tree cut from above and one clustered from below, over large triangles' parts, improved by
+    /// reinsertion: for what is built once.
     Good,
     /// Improved more, in several times the time, for a few percent.
     Best,

@@ -96,7 +96,7 @@ fn encode_plan(tree: &BinaryTree, plan: &Plan) -> WideTree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layout::MAX_LEAF;
+    use crate::layout::{MAX_LEAF, MOST_WAITING_BLAS};
     use crate::testing::Random;
 
     fn soup(count: usize, scale: f32) -> Vec<Aabb> {
@@ -141,7 +141,7 @@ mod tests {
         for (count, scale) in [(1, 1.0), (5, 1e-12), (300, 1e10), (4000, 30.0)] {
             let boxes = soup(count, scale);
             let tree = build(&boxes, Split::SurfaceArea);
-            let wide = encode(&tree, &boxes, MAX_LEAF, 56);
+            let wide = encode(&tree, &boxes, MAX_LEAF, MOST_WAITING_BLAS);
             let mut seen = Vec::new();
             walk(&wide, 0, &boxes, &mut seen);
             seen.sort_unstable();

@@ -5,6 +5,7 @@
 //! Greiner 2007).
 
 use crate::bounds::Aabb;
+use crate::error::MAX_PRIMITIVES;
 use crate::layout::Triangle;
 use glam::Vec3;
 use obvhs::aabb::Aabb as ObvhsAabb;
@@ -13,12 +14,15 @@ use obvhs::triangle::Triangle as ObvhsTriangle;
 
 /// More records than this, for each that was given, are not made.
 const MOST_PARTS: usize = 2;
+/// More records than this stay whole, so that those of all parts are no more than a structure may have.
+const MOST_SPLIT: usize = MAX_PRIMITIVES / MOST_PARTS;
 /// Rounding of a part's corners, relative to its coordinates (2^-21).
 const ROUNDING: f32 = 4.768_371_6e-7;
 
 /// The records with those split that are worth it, and the box of each; spheres are never split.
 pub(crate) fn split(records: Vec<Triangle>, boxes: Vec<Aabb>) -> (Vec<Triangle>, Vec<Aabb>) {
-    if records.iter().any(|record| record.sphere().is_some()) || records.is_empty() {
+    let has_sphere = records.iter().any(|record| record.sphere().is_some());
+    if has_sphere || records.is_empty() || records.len() > MOST_SPLIT {
         return (records, boxes);
     }
     let triangles: Vec<ObvhsTriangle> = records.iter().map(to_obvhs).collect();

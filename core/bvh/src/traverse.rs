@@ -1,4 +1,4 @@
-//! The reference traversal: the twin of `shaders/include/bvh.glsl`, step by step over the same words,
+//! The reference traversal: the twin of `shaders/include/bvh.glsl`, the same visits in the same order over the same words,
 //! so that a test of one is a test of the other.
 
 use crate::intersect::{RayShear, TriangleHit, intersect_sphere, intersect_triangle};

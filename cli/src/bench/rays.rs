@@ -99,10 +99,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         output::print(|out| rows::write_head(out, &report.device, size))?;
     }
     let caster = Caster::new(&gpu, size, arguments.time)?;
-    let rooms = arguments.triangles.iter().map(|&triangles| Ok(Subject::room(triangles)));
-    let meshes = arguments.mesh.iter().map(|path| Subject::file(path));
+    // Files first: a wrong name is said before anything is measured.
+    let meshes: Vec<Subject> =
+        arguments.mesh.iter().map(|path| Subject::file(path)).collect::<Result<_, _>>()?;
+    let rooms = arguments.triangles.iter().map(|&triangles| Subject::room(triangles));
     for subject in rooms.chain(meshes) {
-        let row = measure(&gpu, &caster, &subject?, arguments)?;
+        let row = measure(&gpu, &caster, &subject, arguments)?;
         if prints {
             output::print(|out| row.write(out))?;
         }

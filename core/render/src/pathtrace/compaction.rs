@@ -5,7 +5,7 @@ use std::sync::Arc;
 use afterglow_gpu::{AccelerationStructure, Commands, CompactedSizes, Gpu, GpuError};
 
 /// Frames after which the device has finished one.
-const FRAMES_IN_FLIGHT: u64 = 3;
+pub(super) const FRAMES_IN_FLIGHT: u64 = 3;
 /// What compaction gives back at least, as the share 1/n of a structure.
 const LEAST_SHARE: u64 = 8;
 

@@ -14,6 +14,7 @@ use afterglow_gpu::{
 use afterglow_records::RefitPush;
 use afterglow_shaders as shaders;
 
+use super::compaction::FRAMES_IN_FLIGHT;
 use super::refit::{MOST_COST, cost, triangle_of};
 use super::slabs::Part;
 use super::staging::Staging;
@@ -26,8 +27,6 @@ pub(super) const LEAST_TRIANGLES: usize = 4096;
 const GROUP: u32 = 64;
 /// Bytes of a node's cost.
 const COST_BYTES: u64 = 4;
-/// Frames after which the device has finished one.
-const FRAMES_IN_FLIGHT: u64 = 3;
 /// Refits of a frame; more meshes are moved by the processor.
 const MOST_REFITS: usize = 256;
 

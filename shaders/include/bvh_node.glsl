@@ -1,32 +1,16 @@
-// The bytes of a two-level BVH: one file knows them. Written by core/bvh (src/layout.rs says what
-// each field means); nodes, triangles and instances are found by offsets in units of 16 bytes from
-// the start of their structure.
+// Reads a two-level BVH, which core/bvh has written (src/layout.rs says what each field means); nodes, triangles and instances
+// are found by offsets in units of 16 bytes from the start of their structure.
 
 #ifndef AFTERGLOW_BVH_NODE_GLSL
 #define AFTERGLOW_BVH_NODE_GLSL
 
+#include "bvh_layout.glsl"
 #include "ray.glsl"
 
 // Whether structures may hold spheres.
 #ifndef BVH_SPHERES
 #define BVH_SPHERES true
 #endif
-
-const uint BVH_NODE_UNITS = 8u;
-const uint BVH_TRIANGLE_UNITS = 3u;
-const uint BVH_INSTANCE_UNITS = 7u;
-const uint BVH_STACK_ENTRIES = 128u;
-const uint BVH_MAX_STEPS = 262144u;
-
-const uint BVH_PLACE_BITS = 29u;
-const uint BVH_NOTHING = 4294967295u;
-const uint BVH_ROOT = 0u;
-const uint BVH_PLACE_MASK = (1u << BVH_PLACE_BITS) - 1u;
-
-const uint BVH_FLAG_ALPHA_TESTED = 1u;
-const uint BVH_FLAG_TWO_SIDED = 2u;
-const uint BVH_FLAG_IDENTITY = 4u;
-const uint BVH_FLAG_SPHERE = 8u;
 
 // Whether a unit is one load, which graphics processors like best, or two: lavapipe gathers component by component.
 #ifndef BVH_WHOLE_UNITS

@@ -2,7 +2,7 @@
 //! nodes first (the root at word 0), then its leaf records, triangles and spheres in a bottom level
 //! (BLAS) or instances in a top level (TLAS). References inside are offsets from the structure's own start in
 //! [`UNIT_BYTES`]-byte units, so a structure can be copied to any 16-byte-aligned address.
-//! `shaders/include/bvh_node.glsl` is the reader; a test compares its constants with these.
+//! `shaders/include/bvh_node.glsl` is the reader; a test compares the constants of `bvh_layout.glsl` with these.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -243,7 +243,7 @@ mod tests {
 
     #[test]
     fn the_shader_has_the_same_constants() {
-        let shader = include_str!("../../../shaders/include/bvh_node.glsl");
+        let shader = include_str!("../../../shaders/include/bvh_layout.glsl");
         for (name, value) in [
             ("NODE_UNITS", NODE_UNITS),
             ("TRIANGLE_UNITS", TRIANGLE_UNITS),

@@ -16,8 +16,6 @@ const uint WIDTH = 4u;
 const uint NODES = gl_WorkGroupSize.x / WIDTH;
 // Words of a node: planes along x, y, z, each the least ones and then the greatest; references; nothing.
 const uint PLANE_WORDS = 6u * WIDTH;
-const uint NOTHING = 0xffffffffu;
-const uint PLACE_BITS = 29u;
 
 // A box as integers that sort like its coordinates.
 struct Box {
@@ -84,15 +82,15 @@ void main() {
     Words costs = Words(push.costs);
 
     float cost = 0.0;
-    uint child = is_there ? node.entries[PLANE_WORDS + slot] : NOTHING;
-    if (child != NOTHING) {
-        uint place = child & ((1u << PLACE_BITS) - 1u);
+    uint child = is_there ? node.entries[PLANE_WORDS + slot] : BVH_NOTHING;
+    if (child != BVH_NOTHING) {
+        uint place = child & BVH_PLACE_MASK;
         Box box;
         if (child >> 31 == 0u) {
             box = box_of_node(place);
-            cost = half_area(box) + uintBitsToFloat(costs.entries[place / (NODE_BYTES / 16u)]);
+            cost = half_area(box) + uintBitsToFloat(costs.entries[place / BVH_NODE_UNITS]);
         } else {
-            uint count = (child >> PLACE_BITS & 3u) + 1u;
+            uint count = (child >> BVH_PLACE_BITS & 3u) + 1u;
             box = box_of_records(place, count);
             cost = half_area(box) * float(count);
         }

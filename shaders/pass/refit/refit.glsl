@@ -4,6 +4,7 @@
 #ifndef AFTERGLOW_PASS_REFIT_GLSL
 #define AFTERGLOW_PASS_REFIT_GLSL
 
+#include "bvh_layout.glsl"
 #include "generated/pathtrace.glsl"
 
 layout(local_size_x = 64) in;
@@ -12,7 +13,7 @@ layout(push_constant, scalar) uniform Push { RefitPush push; };
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Words { uint entries[]; };
 
-const uint NODE_BYTES = 128u;
-const uint RECORD_BYTES = 48u;
+const uint NODE_BYTES = 16u * BVH_NODE_UNITS;
+const uint RECORD_BYTES = 16u * BVH_TRIANGLE_UNITS;
 
 #endif

@@ -260,11 +260,16 @@ mod tests {
             let line = format!("const uint BVH_{name} = {value}u;");
             assert!(shader.contains(&line), "{line}");
         }
+        let reader = include_str!("../../../shaders/include/bvh_node.glsl");
+        let line = format!("layout(constant_id = {WHOLE_UNITS_CONSTANT}) const bool BVH_WHOLE_UNITS");
+        assert!(reader.contains(&line), "{line}");
     }
 
     #[test]
     fn the_stack_holds_both_levels() {
         assert!((MOST_WAITING_BLAS + MOST_WAITING_TLAS) as usize <= STACK_ENTRIES);
+        // Shaders keep to it by a mask.
+        assert!(STACK_ENTRIES.is_power_of_two());
     }
 
     #[test]

@@ -194,11 +194,11 @@ Asked resampled(ViewRecord view, Path path, PathRandom random, uint dimension, u
         // One number for all walks: what has a share of all light has its share of the candidates.
         float number = (float(part) + (float(i) + choice.x) / float(candidates)) / float(parts);
         float chance;
-        uint light = chosen_placed(view, path.at.start, path.at.normal, number, chance);
+        uint light = chosen_placed(view, path.at.position, path.at.normal, number, chance);
         if (!(chance > 0.0)) {
             continue;
         }
-        LightSample to = light_sample(light_source(view, light), path.at.start, (i & 1u) == 0u ? points.xy : points.zw);
+        LightSample to = light_sample(light_source(view, light), path.at.position, (i & 1u) == 0u ? points.xy : points.zw);
         float own = brings(path, to);
         float weight = own / chance;
         sum += weight;
@@ -216,8 +216,10 @@ Asked resampled(ViewRecord view, Path path, PathRandom random, uint dimension, u
     return kept;
 }
 
+// The ray starts off the surface that asks and ends where the light's point is.
 RayPlan shadow_plan(Path path, Asked asked) {
-    RayPlan plan = RayPlan(asked.to.direction, asked.to.reach, true, false, vec3(0.0), vec3(0.0), 0.0, false);
+    vec3 way = asked.to.direction * asked.to.reach + (path.at.position - path.at.start);
+    RayPlan plan = RayPlan(unit_vector(way), length(way), true, false, vec3(0.0), vec3(0.0), 0.0, false);
     if (asked.weight > 0.0) {
         by_lobes(path, asked, plan.diffuse, plan.specular);
         plan.is_worth_it = plan.diffuse + plan.specular != vec3(0.0);
@@ -230,7 +232,7 @@ RayPlan plan_placed(ViewRecord view, Path path, PathRandom random, uint dimensio
     if (asks_each(view, path.surfaces)) {
         LightSource light = light_source(view, view.far_count + path.stage);
         vec4 numbers = path_numbers(view, random, dimension);
-        return shadow_plan(path, Asked(light_sample(light, path.at.start, numbers.xy), 1.0, 1.0));
+        return shadow_plan(path, Asked(light_sample(light, path.at.position, numbers.xy), 1.0, 1.0));
     }
     Asked asked = resampled(view, path, random, dimension, path.stage, count);
     asked.weight /= float(count);
@@ -320,8 +322,8 @@ void add_found(Path path, RayPlan plan, vec3 radiance, bool is_lamp, inout Chann
 // How much of what a ray has found of a light is its own to bring.
 float found_share(ViewRecord view, Path path, RayPlan plan, uint light, float away) {
     LightSource source = light_source(view, light);
-    float chance = placed_chance(view, path.surfaces, source, path.at.start, path.at.normal);
-    return balance(plan.density, chance * light_density(source, path.at.start, plan.direction, away));
+    float chance = placed_chance(view, path.surfaces, source, path.at.position, path.at.normal);
+    return balance(plan.density, chance * light_density(source, path.at.position, plan.direction, away));
 }
 
 // Far lights' discs, as a ray sees them that has met nothing.

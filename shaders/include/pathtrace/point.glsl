@@ -11,7 +11,8 @@
 #include "surface.glsl"
 
 struct SurfacePoint {
-    vec3 start;     // where rays start
+    vec3 start;     // where rays start, a little off the surface
+    vec3 position;  // where lights are asked from: off the surface, one that is seen at a grazing angle would be another
     vec3 normal;    // that light is reflected by
     vec3 geometric; // of the triangle, on the same side as the viewer
     Bsdf bsdf;
@@ -22,7 +23,7 @@ struct SurfacePoint {
 
 // A point that gives off light and reflects none.
 SurfacePoint shining_point(vec3 emission, uint light) {
-    return SurfacePoint(vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), diffuse_bsdf(vec3(0.0)), emission, light, true);
+    return SurfacePoint(vec3(0.0), vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0), diffuse_bsdf(vec3(0.0)), emission, light, true);
 }
 
 // A surface of a scene file: flat, of one material, shining from its front.
@@ -90,6 +91,7 @@ SurfacePoint surface_point(ViewRecord view, Hit hit, vec3 direction, RayCone con
     normal = is_towards ? normal : -normal;
     vec3 position = first + edge_1 * weights.y + edge_2 * weights.z;
     SurfacePoint point = shining_point(vec3(0.0), NO_LIGHT);
+    point.position = position;
     point.start = offset_ray(position, normal) + normal * start_distance(draw, positions);
     point.normal = normal;
     point.geometric = normal;

@@ -23,6 +23,7 @@ const float PLANE_SHARE = 0.05;
 SurfacePoint seen_point(SurfaceTexel surface) {
     SurfacePoint seen = shining_point(vec3(0.0), NO_LIGHT);
     seen.start = surface.start;
+    seen.position = surface.start;
     seen.normal = unpack_unit_vector(surface.normal);
     seen.geometric = unpack_unit_vector(surface.geometric);
     vec3 specular = linear_from_srgb(unpack_color(surface.specular));
@@ -33,7 +34,7 @@ SurfacePoint seen_point(SurfaceTexel surface) {
 
 // What a light's point brings to a surface that is seen along `to_viewer`.
 float brings_to(ViewRecord view, SurfacePoint at, vec3 to_viewer, ReservoirTexel kept) {
-    LightSample to = light_sample(light_source(view, kept.light), at.start, unpackUnorm2x16(kept.point));
+    LightSample to = light_sample(light_source(view, kept.light), at.position, unpackUnorm2x16(kept.point));
     return brings(path_from(at, to_viewer, 0u, camera_cone(0.0)), to);
 }
 
@@ -94,7 +95,7 @@ ReservoirTexel own_choice(ViewRecord view, Path path, PathRandom random, uint di
         float chance;
         float number = (float(i) + numbers.y) / float(candidates);
         ReservoirTexel candidate = NOTHING_KEPT;
-        candidate.light = chosen_placed(view, path.at.start, path.at.normal, number, chance);
+        candidate.light = chosen_placed(view, path.at.position, path.at.normal, number, chance);
         candidate.point = packUnorm2x16(path_numbers(view, random, dimension + 1u + i).xy);
         if (chance > 0.0) {
             float own = brings_to(view, path.at, path.to_viewer, candidate);
@@ -143,6 +144,7 @@ ReservoirTexel chosen_over_time(ViewRecord view, Path path, PathRandom random, u
     SurfacePoint other = seen_point(surface);
     vec3 other_viewer = to_eye(view, other.start);
     other.start += view.origin_before;
+    other.position += view.origin_before;
     if (!is_alike(path.at, other.start, other.normal, kind, surface_kind(surface))) {
         return own;
     }
@@ -195,8 +197,8 @@ Asked chosen_among_neighbours(ViewRecord view, Path path, PathRandom random, uin
         return Asked(no_light(), 0.0, 0.0);
     }
     LightSource light = light_source(view, kept.light);
-    float chance = placed_chance(view, 0u, light, path.at.start, path.at.normal);
-    LightSample to = light_sample(light, path.at.start, unpackUnorm2x16(kept.point));
+    float chance = placed_chance(view, 0u, light, path.at.position, path.at.normal);
+    LightSample to = light_sample(light, path.at.position, unpackUnorm2x16(kept.point));
     return Asked(to, chance, kept.weight / max(pairs, 1.0));
 }
 

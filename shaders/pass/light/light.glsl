@@ -72,9 +72,9 @@ RayPlan plan_shade(ViewRecord view, inout Path path, PathRandom random, RayPlan 
     bool is_both = view.far_count != 0u && placed_count(view) != 0u;
     float number = is_both ? fract(2.0 * numbers.x) : numbers.x;
     uint light = is_far ? chosen_far(view, path.at.normal, number, chance)
-        : chosen_placed(view, path.at.start, path.at.normal, number, chance);
+        : chosen_placed(view, path.at.position, path.at.normal, number, chance);
     float weight = chance > 0.0 ? (is_both ? 2.0 : 1.0) / chance : 0.0;
-    return shadow_plan(path, Asked(light_sample(light_source(view, light), path.at.start, numbers.yz), chance, weight));
+    return shadow_plan(path, Asked(light_sample(light_source(view, light), path.at.position, numbers.yz), chance, weight));
 }
 
 void take_shade(ViewRecord view, inout Path path, inout RayPlan asked, RayPlan plan, bool met, float away, inout Shade shade) {

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use afterglow_gpu::GpuOptions;
 use afterglow_render as render;
+use afterglow_render::Paint;
 use afterglow_scene::{Profile, ProfileChoice, ProfileError, ProgramCache, Replacing};
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
@@ -195,9 +196,89 @@ pub struct LightArguments {
     /// Radiance that a sample brings at most; `inf` for no limit (pathtrace)
     #[arg(long, value_name = "RADIANCE", default_value_t = 16.0, env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
     pub limit: f32,
-    /// Leave the noise of few samples in the picture
+    /// What makes a picture of few samples (pathtrace)
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "asvgf", env = "AFTERGLOW_DENOISER")]
+    pub denoiser: Denoiser,
+    /// Texels of light along a side, for each pixel: 0.5 to 1 (pathtrace)
+    #[arg(long, value_name = "SHARE", default_value_t = 1.0, env = "AFTERGLOW_LIGHT_SCALE", value_parser = light_scale)]
+    pub light_scale: f32,
+    /// Leave the edges of triangles as they are (pathtrace)
     #[arg(long)]
-    pub no_filter: bool,
+    pub no_antialiasing: bool,
+    /// Show a buffer in place of the picture
+    #[arg(long, value_enum, value_name = "WHAT", alias = "paint", env = "AFTERGLOW_VIEW")]
+    pub view: Option<View>,
+}
+
+/// What makes a picture of few samples.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Denoiser {
+    /// Nothing: noise stays, and frames that do not change add up
+    None,
+    /// Spatiotemporal variance-guided filtering
+    Svgf,
+    /// The same, with histories that are as long as light has not changed
+    Asvgf,
+}
+
+impl Denoiser {
+    /// As the renderer has it.
+    pub fn method(self) -> render::Denoiser {
+        match self {
+            Denoiser::None => render::Denoiser::None,
+            Denoiser::Svgf => render::Denoiser::Svgf,
+            Denoiser::Asvgf => render::Denoiser::Asvgf,
+        }
+    }
+}
+
+/// What a path-traced picture can show instead of itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum View {
+    /// How light is found: a colour a kind of surface
+    Kind,
+    /// Shading normals
+    Normal,
+    /// Albedo
+    Albedo,
+    /// Direct light
+    Direct,
+    /// Indirect light
+    Indirect,
+    /// Light of the specular lobe
+    Specular,
+    /// Where what is seen was in the frame before
+    Motion,
+    /// How much samples of light differ
+    Variance,
+    /// How much of earlier frames' light is not believed
+    Gradient,
+    /// Over how many frames light is gathered
+    History,
+    /// Edges that are smoothed
+    Edges,
+    /// The sky as rays see it, in all directions: longitude to the right, latitude of the world's y axis upward
+    Sky,
+}
+
+impl View {
+    /// As the renderer has it.
+    pub fn paint(self) -> Paint {
+        match self {
+            View::Kind => Paint::Kind,
+            View::Normal => Paint::Normal,
+            View::Albedo => Paint::Albedo,
+            View::Direct => Paint::Direct,
+            View::Indirect => Paint::Indirect,
+            View::Specular => Paint::Specular,
+            View::Motion => Paint::Motion,
+            View::Variance => Paint::Variance,
+            View::Gradient => Paint::Gradient,
+            View::History => Paint::History,
+            View::Edges => Paint::Edges,
+            View::Sky => Paint::Sky,
+        }
+    }
 }
 
 impl LightArguments {
@@ -212,7 +293,17 @@ impl LightArguments {
         (options.candidates, options.asked) = (self.candidates, self.asked);
         options.keeps_lights = self.reuse && self.lights == LightChoice::Resampled;
         options.most_radiance = self.limit;
-        options.filter = !self.no_filter;
+        options.denoiser = self.denoiser.method();
+        options.light_scale = self.light_scale;
+        options.smooth_edges = !self.no_antialiasing;
+        options.paint = self.view.map_or(Paint::Picture, View::paint);
+    }
+}
+
+fn light_scale(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(scale) if (0.5..=1.0).contains(&scale) => Ok(scale),
+        _ => Err(format!("'{text}' is not from 0.5 to 1")),
     }
 }
 

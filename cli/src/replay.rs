@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use afterglow_player::{Player, TraceSummary};
-use afterglow_render::{Displaced, ImageOptions, Paint, PathtraceOptions};
+use afterglow_render::{Displaced, ImageOptions, PathtraceOptions};
 use afterglow_scene::Relighting;
 use afterglow_trace::TraceReader;
 use clap::{Args, ValueEnum};
@@ -65,9 +65,6 @@ pub struct Arguments {
     /// What rays see of the sky that the program draws
     #[arg(long, value_enum, value_name = "WHAT", default_value = "cube", env = "AFTERGLOW_SKY")]
     pub sky: Sky,
-    /// Show what the light is made of instead of the picture
-    #[arg(long, value_enum, value_name = "VIEW")]
-    paint: Option<View>,
     /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none (pathtrace)
     #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
     pub memory: u32,
@@ -124,7 +121,6 @@ impl Arguments {
         options.images = folder.map(|folder| ImageOptions { folder, waits: true });
         options.memory_bytes = u64::from(self.memory) << 20;
         options.cache = self.keep.cache_for_trace(&self.trace)?;
-        options.paint = self.paint.map_or(Paint::Picture, View::paint);
         options.move_light = self.debug_move_light.map(|m| (m.index as usize, m.offset.into()));
         options.move_draw = self.debug_move_draw.map(|m| (Displaced::Draw(m.index), m.offset.into()));
         Ok(options)
@@ -133,36 +129,6 @@ impl Arguments {
     /// Whether anybody will read how long the passes took.
     fn wants_timing(&self) -> bool {
         self.stats || self.json.is_some()
-    }
-}
-
-/// What a path-traced picture can show instead of itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum View {
-    /// How light is found: a colour a kind of surface.
-    Kind,
-    /// Shading normals.
-    Normal,
-    /// Albedo.
-    Albedo,
-    /// Direct light.
-    Direct,
-    /// Indirect light.
-    Indirect,
-    /// The sky as rays see it, in all directions: longitude to the right, latitude of the world's y axis upward.
-    Sky,
-}
-
-impl View {
-    fn paint(self) -> Paint {
-        match self {
-            View::Kind => Paint::Kind,
-            View::Normal => Paint::Normal,
-            View::Albedo => Paint::Albedo,
-            View::Direct => Paint::Direct,
-            View::Indirect => Paint::Indirect,
-            View::Sky => Paint::Sky,
-        }
     }
 }
 

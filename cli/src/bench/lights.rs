@@ -192,7 +192,8 @@ impl Bench {
         (options.spp, options.surfaces, options.asked) = (samples, 2, 1);
         (options.light_choice, options.candidates, options.keeps_lights) =
             (choice.how, choice.candidates, choice.keeps);
-        (options.accumulate, options.filter, options.keeps_radiance) = (accumulates, false, true);
+        (options.accumulate, options.keeps_radiance) = (accumulates, true);
+        (options.denoiser, options.smooth_edges) = (afterglow_render::Denoiser::None, false);
         options.most_radiance = f32::INFINITY;
         options.relighting = Relighting::Off;
         options.memory_bytes = 0;

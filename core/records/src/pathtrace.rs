@@ -15,8 +15,12 @@ shared_struct! {
         pub vertices: u64,
         /// Address of the first index.
         pub indices: u64,
+        /// Where the corners were in the frame before, object space, three f32 an index; 0 where they are as they were.
+        pub corners_before: u64,
         /// Object to world, the rows of a 3x4 matrix.
         pub object_to_world: [[f32; 4]; 3],
+        /// The same in the frame before, relative to this frame's camera; zeros where it was not there.
+        pub object_to_world_before: [[f32; 4]; 3],
         /// Left, bottom, width, height of the viewport in pixels, counted from the window's lower left corner.
         pub viewport: [f32; 4],
         /// `StateWords`.
@@ -60,7 +64,8 @@ shared_struct! {
         /// Object-space distance along an axis, at most, from where rays are taken relative to in the mesh that it is part of;
         /// infinite if that is the object's origin.
         pub reach: f32,
-        pub padding: u32,
+        /// What it is part of, told apart from frame to frame: 0 is all that stands still.
+        pub object: u32,
     }
 }
 
@@ -175,16 +180,29 @@ shared_struct! {
         /// [`ReservoirTexel`]s of this frame and of the one before; 0 where lights are not kept from frame to frame, or were not.
         pub reservoirs: u64,
         pub reservoirs_before: u64,
-        /// [`SurfaceTexel`]s of the frame before.
+        /// [`SurfaceTexel`]s of the frame before; 0 where they were not kept.
         pub surfaces_before: u64,
         /// The top level.
         pub world: u64,
         /// [`SurfaceTexel`]s, one a pixel, rows from the top.
         pub surfaces: u64,
-        /// [`LightTexel`]s.
+        /// [`LightTexel`]s; 0 where light goes through a denoiser.
         pub light: u64,
-        /// Indirect light that composition reads: four f32 a pixel, the last one the depth with a sign (see filter.comp).
-        pub indirect: u64,
+        /// [`GuideTexel`]s of this frame and of the one before (0 if that has left none), and [`MotionTexel`]s.
+        pub guides: u64,
+        pub guides_before: u64,
+        pub motions: u64,
+        /// [`ChannelTexel`]s: as they were traced, as earlier frames left them, and as composition takes them.
+        pub noisy: u64,
+        pub history: u64,
+        pub denoised: u64,
+        /// [`StratumTexel`]s, and [`GradientTexel`]s as the history is judged by; 0 for denoisers without.
+        pub strata: u64,
+        pub gradients: u64,
+        /// [`LuminanceTexel`]s: of this frame's light once it is traced, and of the frame's before until then.
+        pub luminances: u64,
+        /// Four half floats a pixel: what is shown before edges are smoothed, linear.
+        pub composed: u64,
         /// [`ExposureSum`]s, one a workgroup.
         pub sums: u64,
         /// [`MoverSum`]s, one a [`SurfaceDraw`].
@@ -197,6 +215,10 @@ shared_struct! {
         /// Pixels.
         pub width: u32,
         pub height: u32,
+        /// Texels of light, and pixels from one to the next.
+        pub light_width: u32,
+        pub light_height: u32,
+        pub light_step: [f32; 2],
         /// Bindless index of the visibility buffer as a storage image.
         pub visibility: u32,
         /// Bindless index of the colour as a storage image.
@@ -224,6 +246,9 @@ shared_struct! {
         pub highlight: f32,
         /// Samples a pixel of this frame.
         pub samples: u32,
+        /// The number of the first one in the pixel's sequence, and of the first one in the frame before.
+        pub first_sample: u32,
+        pub first_sample_before: u32,
         /// Samples a pixel that [`ViewRecord::light`] holds already.
         pub accumulated: u32,
         pub seed: u32,
@@ -254,12 +279,16 @@ shared_struct! {
         pub pixel_origin: [f32; 3],
         pub pixel_right: [f32; 3],
         pub pixel_down: [f32; 3],
-        /// Positions to clip space of the frame before, rows of a 4x4 matrix.
+        /// Positions to clip space of the frame before, rows of a 4x4 matrix, and to its depth along the view.
         pub clip_before: [[f32; 4]; 4],
+        pub depth_before: [f32; 4],
+        /// Frames that direct, indirect and specular light are gathered over, at most.
+        pub longest: [f32; 3],
         /// What is added to positions of the frame before to be relative to this one's camera.
         pub origin_before: [f32; 3],
         /// Frames traced before this one.
         pub frame_number: u32,
+        pub padding: u32,
     }
 }
 
@@ -272,12 +301,15 @@ shared_struct! {
         pub normal: u32,
         /// Geometric normal towards the viewer, likewise.
         pub geometric: u32,
-        /// Albedo, sRGB in three bytes; in the fourth how much fog leaves of it.
+        /// Albedo, sRGB in 11, 11 and 10 bits.
         pub albedo: u32,
-        /// Specular colour, sRGB in three bytes, and shininess, 255 being 128.
+        /// What the specular lobe reflects straight on, likewise.
         pub specular: u32,
-        /// Emission, sRGB in three bytes, a `SURFACE_` constant in four bits, and the mask of rays from here.
+        /// Radiance that it gives off, linear RGB, nine bits each and a shared exponent of five.
         pub emission: u32,
+        /// From the lowest bit: eight bits of how much the program's fog leaves of it, eight of roughness, four with a
+        /// `SURFACE_` constant, four with the mask of rays from here, eight of where an edge of its triangle is (see edge.glsl).
+        pub properties: u32,
     }
 }
 
@@ -288,23 +320,71 @@ shared_struct! {
         pub direct: [f32; 3],
         /// The same by way of other surfaces and the sky.
         pub indirect: [f32; 3],
-        /// Radiance of highlights.
+        /// Radiance of highlights over what the lobe reflects straight on.
         pub specular: [f32; 3],
-        /// Where indirect light comes from, as [`IndirectTexel`] has it.
+        /// How the luminance of indirect light grows along each axis of the normal: the second of two bands of spherical harmonics,
+        /// so that it can be mixed with that of places which face elsewhere.
         pub towards: [f32; 3],
     }
 }
 
 shared_struct! {
-    /// Indirect light of a pixel on its way through the filter, in two bands of spherical harmonics, so that it can be mixed
-    /// with that of places which face elsewhere: luminance is that of `color` plus `towards` times the normal.
-    pub struct IndirectTexel {
-        /// Irradiance over pi of a surface that faces as this pixel's does: the first band.
-        pub color: [f32; 3],
-        /// How its luminance grows along each axis of the normal: the second band.
-        pub towards: [f32; 3],
-        /// Distance along the view; 0 where nothing is seen, negative for the view's second kind of surfaces.
+    /// The same on its way through a denoiser: four half floats a channel, and four more.
+    pub struct ChannelTexel {
+        /// Direct, specular and indirect light, red, green and blue, and the standard deviation of its luminance; then the second
+        /// band of indirect light, and how far the specular lobe's ray went.
+        pub halves: [u32; 8],
+    }
+}
+
+shared_struct! {
+    /// What denoisers know of what a texel of light shows.
+    pub struct GuideTexel {
+        /// Distance along the view; 0 where nothing is seen.
         pub depth: f32,
+        /// Shading normal, octahedral, two snorm16.
+        pub normal: u32,
+        /// From the lowest bit: three times six bits of frames that direct, indirect and specular light were gathered over, two
+        /// bits for kinds of surfaces that must not be mixed, four of roughness, eight of what moves (see guide.glsl).
+        pub bits: u32,
+    }
+}
+
+shared_struct! {
+    /// Where in the frame before was what a texel of light shows.
+    pub struct MotionTexel {
+        /// How far from its place now, texels to the right and down, two half floats.
+        pub offset: u32,
+        /// Its distance along the view then; 0 if it was not there.
+        pub depth: f32,
+    }
+}
+
+shared_struct! {
+    /// Of three by three texels of light the one that is traced with the numbers that it was traced with in the frame before.
+    pub struct StratumTexel {
+        /// Which one, row by row; 9 if none.
+        pub chosen: u32,
+        /// The texel where it was.
+        pub before: u32,
+        /// Luminance of direct, indirect and specular light there, half floats.
+        pub luminance: [u32; 2],
+    }
+}
+
+shared_struct! {
+    /// How much light has changed since the frame before.
+    pub struct GradientTexel {
+        /// Six half floats: the change of luminance of direct, indirect and specular light, and the greater of both luminances.
+        pub halves: [u32; 3],
+    }
+}
+
+shared_struct! {
+    /// Luminance of a texel's light as it was traced.
+    pub struct LuminanceTexel {
+        /// Direct, indirect, specular, half floats; the fourth is 1 where older numbers were used.
+        pub halves: [u32; 2],
     }
 }
 
@@ -468,6 +548,18 @@ pub enum Paint {
     Indirect = 5,
     /// The sky as rays see it, in all directions: longitude to the right, latitude of the world's y axis upward.
     Sky = 6,
+    /// Light of the specular lobe.
+    Specular = 7,
+    /// Where what is seen was in the frame before: to the right red, down green, by up to 16 pixels; blue where it was not there.
+    Motion = 8,
+    /// Standard deviation of each sample's direct, indirect and specular light.
+    Variance = 9,
+    /// How much of the earlier frames' direct, indirect and specular light is not believed.
+    Gradient = 10,
+    /// Over how many frames direct, indirect and specular light are gathered, of as many as may be.
+    History = 11,
+    /// Edges that are smoothed.
+    Edges = 12,
 }
 
 /// Bits of a hit's primitive below the member's number.
@@ -518,6 +610,8 @@ pub const TRACE_UNLIMITED: u32 = 4;
 pub const TRACE_ROULETTE: u32 = 8;
 /// The projection is orthographic: pixels look side by side.
 pub const TRACE_PARALLEL: u32 = 16;
+/// Edges of triangles are smoothed.
+pub const TRACE_SMOOTH_EDGES: u32 = 32;
 
 /// Instances that never move.
 pub const MASK_STATIC: u32 = 1;

@@ -46,8 +46,8 @@ pub use afterglow_records::Paint;
 pub use drawables::Carried;
 pub use error::RenderError;
 pub use pathtrace::{
-    Backend, Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Radiance, SkyChoice, Target,
-    TraceCounts,
+    Backend, Denoiser, Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Radiance, SkyChoice,
+    Target, TraceCounts,
 };
 pub use renderer::{RenderOptions, Renderer};
 pub use report::{FrameReport, PassReport, SceneReport};

@@ -9,10 +9,10 @@ use afterglow_gl::frame::{Frame, Operation, PixelBuffer};
 
 use crate::passes::accumulate::Accumulated;
 use crate::passes::readback::Question;
-use crate::pathtrace::PreparedTrace;
 use crate::pathtrace::buffers::ViewBuffers;
 use crate::pathtrace::schedule::{TraceWork, ViewResources, declare_view};
 use crate::pathtrace::sky::SkyMap;
+use crate::pathtrace::{PreparedTrace, denoise};
 use crate::plan::{Plan, RasterStep, Step};
 use crate::target::Target;
 
@@ -84,6 +84,8 @@ pub(crate) struct TracedViews<'a> {
     /// How the last frame left the world's meshes, and the lists.
     pub(crate) world: [ResourceState; 2],
     pub(crate) prepared: &'a PreparedTrace,
+    /// What the denoiser does.
+    pub(crate) denoising: &'a denoise::Plan,
     /// The map of the sky, if rays look at it.
     pub(crate) sky: Option<&'a SkyMap>,
 }
@@ -121,7 +123,8 @@ pub(crate) fn schedule(
     let views = traced.map(|traced| {
         let prepared = traced.prepared;
         let (backend, parity) = (prepared.backend, prepared.parity);
-        ViewResources::declare(&mut graph, traced.buffers, traced.world, backend, parity, traced.sky)
+        let clean = traced.denoising.output;
+        ViewResources::declare(&mut graph, traced.buffers, traced.world, backend, parity, clean, traced.sky)
     });
     let mut declaring =
         Declaring { graph, resources, views, begun: None, work: Vec::with_capacity(plan.steps.len() + 1) };
@@ -130,7 +133,7 @@ pub(crate) fn schedule(
             declaring.step(index, step, plan, frame, target.size);
         }
         if let (Some(traced), Some(view)) = (traced, plan.finished_view(index)) {
-            declaring.view(view, traced.prepared);
+            declaring.view(view, traced);
         }
     }
     if let Some(question) = question {
@@ -211,10 +214,11 @@ impl Declaring {
     }
 
     /// The passes that light a view, which has been drawn.
-    fn view(&mut self, view: usize, prepared: &PreparedTrace) {
+    fn view(&mut self, view: usize, traced: &TracedViews<'_>) {
         let Some(views) = &self.views else { return };
         let mut work = Vec::new();
-        declare_view(&mut self.graph, &mut work, &self.resources, views, view, prepared);
+        let (prepared, denoising) = (traced.prepared, traced.denoising);
+        declare_view(&mut self.graph, &mut work, &self.resources, views, view, prepared, denoising);
         self.work.extend(work.into_iter().map(Work::Trace));
     }
 

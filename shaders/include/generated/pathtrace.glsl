@@ -4,10 +4,12 @@
 
 #ifndef STRUCT_SurfaceDraw
 #define STRUCT_SurfaceDraw
-struct SurfaceDraw { // 256 bytes
+struct SurfaceDraw { // 312 bytes
     uint64_t vertices;
     uint64_t indices;
+    uint64_t corners_before;
     mat3x4 object_to_world;
+    mat3x4 object_to_world_before;
     vec4 viewport;
     uint state[14];
     uint textures[4];
@@ -32,7 +34,7 @@ struct SurfaceDraw { // 256 bytes
     vec3 base_color;
     uint maps;
     float reach;
-    uint padding;
+    uint object;
 };
 #endif
 
@@ -78,7 +80,7 @@ struct LightNode { // 64 bytes
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 424 bytes
+struct ViewRecord { // 552 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
@@ -92,13 +94,25 @@ struct ViewRecord { // 424 bytes
     uint64_t world;
     uint64_t surfaces;
     uint64_t light;
-    uint64_t indirect;
+    uint64_t guides;
+    uint64_t guides_before;
+    uint64_t motions;
+    uint64_t noisy;
+    uint64_t history;
+    uint64_t denoised;
+    uint64_t strata;
+    uint64_t gradients;
+    uint64_t luminances;
+    uint64_t composed;
     uint64_t sums;
     uint64_t movers;
     uint64_t exposure;
     uint64_t sky_map;
     uint width;
     uint height;
+    uint light_width;
+    uint light_height;
+    vec2 light_step;
     uint visibility;
     uint color;
     uint albedo;
@@ -113,6 +127,8 @@ struct ViewRecord { // 424 bytes
     float most_radiance;
     float highlight;
     uint samples;
+    uint first_sample;
+    uint first_sample_before;
     uint accumulated;
     uint seed;
     vec3 sky;
@@ -130,20 +146,24 @@ struct ViewRecord { // 424 bytes
     vec3 pixel_right;
     vec3 pixel_down;
     mat4 clip_before;
+    vec4 depth_before;
+    vec3 longest;
     vec3 origin_before;
     uint frame_number;
+    uint padding;
 };
 #endif
 
 #ifndef STRUCT_SurfaceTexel
 #define STRUCT_SurfaceTexel
-struct SurfaceTexel { // 32 bytes
+struct SurfaceTexel { // 36 bytes
     vec3 start;
     uint normal;
     uint geometric;
     uint albedo;
     uint specular;
     uint emission;
+    uint properties;
 };
 #endif
 
@@ -157,12 +177,50 @@ struct LightTexel { // 48 bytes
 };
 #endif
 
-#ifndef STRUCT_IndirectTexel
-#define STRUCT_IndirectTexel
-struct IndirectTexel { // 28 bytes
-    vec3 color;
-    vec3 towards;
+#ifndef STRUCT_ChannelTexel
+#define STRUCT_ChannelTexel
+struct ChannelTexel { // 32 bytes
+    uint halves[8];
+};
+#endif
+
+#ifndef STRUCT_GuideTexel
+#define STRUCT_GuideTexel
+struct GuideTexel { // 12 bytes
     float depth;
+    uint normal;
+    uint bits;
+};
+#endif
+
+#ifndef STRUCT_MotionTexel
+#define STRUCT_MotionTexel
+struct MotionTexel { // 8 bytes
+    uint offset;
+    float depth;
+};
+#endif
+
+#ifndef STRUCT_StratumTexel
+#define STRUCT_StratumTexel
+struct StratumTexel { // 16 bytes
+    uint chosen;
+    uint before;
+    uint luminance[2];
+};
+#endif
+
+#ifndef STRUCT_GradientTexel
+#define STRUCT_GradientTexel
+struct GradientTexel { // 12 bytes
+    uint halves[3];
+};
+#endif
+
+#ifndef STRUCT_LuminanceTexel
+#define STRUCT_LuminanceTexel
+struct LuminanceTexel { // 8 bytes
+    uint halves[2];
 };
 #endif
 
@@ -294,6 +352,7 @@ struct SkyPush { // 40 bytes
 #define TRACE_INDEPENDENT 1u
 #define TRACE_ROULETTE 8u
 #define TRACE_PARALLEL 16u
+#define TRACE_SMOOTH_EDGES 32u
 #define TRACE_UNIFORM_LIGHTS 2u
 #define TRACE_UNLIMITED 4u
 
@@ -310,6 +369,12 @@ struct SkyPush { // 40 bytes
 #define PAINT_DIRECT 4u
 #define PAINT_INDIRECT 5u
 #define PAINT_SKY 6u
+#define PAINT_SPECULAR 7u
+#define PAINT_MOTION 8u
+#define PAINT_VARIANCE 9u
+#define PAINT_GRADIENT 10u
+#define PAINT_HISTORY 11u
+#define PAINT_EDGES 12u
 
 #define BLEND_FACTOR_ZERO 0u
 #define BLEND_FACTOR_ONE 1u

@@ -26,8 +26,8 @@ SurfacePoint seen_point(SurfaceTexel surface) {
     seen.position = surface.start;
     seen.normal = unpack_unit_vector(surface.normal);
     seen.geometric = unpack_unit_vector(surface.geometric);
-    vec3 specular = linear_from_srgb(unpack_color(surface.specular));
-    seen.bsdf = Bsdf(vec3(has_diffuse_lobe(surface) ? 1.0 : 0.0), specular, alpha_of(unpack_fourth(surface.specular)));
+    vec3 specular = linear_from_srgb(unpack_unorm11(surface.specular));
+    seen.bsdf = Bsdf(vec3(has_diffuse_lobe(surface) ? 1.0 : 0.0), specular, alpha_of(surface_roughness(surface)));
     seen.is_end = false;
     return seen;
 }

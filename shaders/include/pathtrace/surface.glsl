@@ -3,6 +3,8 @@
 #ifndef AFTERGLOW_PATHTRACE_SURFACE_GLSL
 #define AFTERGLOW_PATHTRACE_SURFACE_GLSL
 
+#include "color.glsl"
+#include "packing.glsl"
 #include "tables.glsl"
 
 // Unit vectors on an octahedron (Cigolle and others, A Survey of Efficient Representations for
@@ -21,36 +23,45 @@ vec3 unpack_unit_vector(uint word) {
     return normalize(unit);
 }
 
-// The kind is a SURFACE_ constant, the mask that of the instances which rays from here see.
+// The kind is a SURFACE_ constant, the mask that of the instances which rays from here see, the edge as edge.glsl has it.
+uint pack_properties(float fog, float roughness, uint kind, uint mask, uint edge) {
+    return packUnorm4x8(vec4(fog, roughness, 0.0, 0.0)) | kind << 16 | mask << 20 | edge << 24;
+}
+
+// How much of a surface the program's fog leaves.
+float surface_fog(SurfaceTexel surface) {
+    return unpackUnorm4x8(surface.properties).x;
+}
+
+float surface_roughness(SurfaceTexel surface) {
+    return unpackUnorm4x8(surface.properties).y;
+}
+
 uint surface_kind(SurfaceTexel surface) {
-    return (surface.emission >> 24) & 15u;
+    return (surface.properties >> 16) & 15u;
 }
 
 uint surface_ray_mask(SurfaceTexel surface) {
-    return surface.emission >> 28;
+    return (surface.properties >> 20) & 15u;
+}
+
+uint surface_edge(SurfaceTexel surface) {
+    return surface.properties >> 24;
 }
 
 // Whether a surface scatters light diffusely: metals do not.
 bool has_diffuse_lobe(SurfaceTexel surface) {
-    return (surface.albedo & 0xffffffu) != 0u || (surface.specular & 0xffffffu) == 0u;
+    return surface.albedo != 0u || surface.specular == 0u;
+}
+
+// What specular light is divided by on its way, so that what varies in the material stays sharp.
+vec3 specular_share(SurfaceTexel surface) {
+    return surface.specular == 0u ? vec3(1.0) : max(linear_from_srgb(unpack_unorm11(surface.specular)), 0.02);
 }
 
 // Whether traced light takes the place of baked light.
 bool is_relit(ViewRecord view) {
     return view.bounce.x >= 0.0;
-}
-
-// Three components of [0, 1] and a byte above them.
-uint pack_color(vec3 color, uint byte) {
-    return packUnorm4x8(vec4(color, 0.0)) | byte << 24;
-}
-
-vec3 unpack_color(uint word) {
-    return unpackUnorm4x8(word).rgb;
-}
-
-float unpack_fourth(uint word) {
-    return unpackUnorm4x8(word).a;
 }
 
 #endif

@@ -2,6 +2,7 @@
 // each moving draw, in integers, whose order does not matter.
 #version 460
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_nonuniform_qualifier : require
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require
@@ -33,13 +34,12 @@ vec2 pixel_sums(ViewRecord view, uvec2 pixel) {
     }
     uint draw = texelFetch(visibility_images[view.visibility], ivec2(pixel), 0).x - 1u;
     vec3 program = imageLoad(color_images[view.color], ivec2(pixel)).rgb;
-    float fog = unpack_fourth(surface.albedo);
+    float fog = surface_fog(surface);
     if (fog < 1.0) {
         program = clamp((program - (1.0 - fog) * fog_color(view, draw)) / max(fog, 0.05), 0.0, 1.0);
     }
     program = linear_from_srgb(program);
-    vec3 indirect = indirect_facing(IndirectTexels(view.indirect).entries[index], unpack_unit_vector(surface.normal));
-    vec3 traced = radiance(surface, LightTexels(view.light).entries[index], indirect, program);
+    vec3 traced = radiance(surface, light_at(view, surface, pixel), program);
     traced = fog * min(traced, 4.0);
     program *= fog;
     if (has_exposure) {

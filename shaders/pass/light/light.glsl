@@ -8,6 +8,8 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 
 #include "trace.glsl"
+#include "denoise/channels.glsl"
+#include "denoise/guide.glsl"
 #include "pathtrace/eye.glsl"
 #include "pathtrace/finite.glsl"
 #include "pathtrace/reservoir.glsl"
@@ -30,6 +32,8 @@ struct Sums {
     // Luminance of indirect light times where it comes from, aside of the normal; and of what is open.
     vec3 towards;
     vec3 towards_open;
+    // Sum of how far specular rays went, and how many of them met something.
+    vec2 reflected;
     Shade shade;
 };
 
@@ -116,10 +120,10 @@ RayPlan plan_seen(ViewRecord view, inout Path path, PathRandom random, uvec2 pix
 }
 
 // The samples of a pixel. `seen` reflects what it is asked for: its albedo meets the light when the picture is made.
-Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mask, uint random_pixel) {
-    Sums sums = Sums(no_channels(), vec3(0.0), vec3(0.0), Shade(0.0, vec3(0.0), vec3(0.0)));
+Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mask, Random numbers) {
+    Sums sums = Sums(no_channels(), vec3(0.0), vec3(0.0), vec2(0.0), Shade(0.0, vec3(0.0), vec3(0.0)));
     bool is_baked = kind == SURFACE_BAKED;
-    PathRandom random = PathRandom(Random(random_pixel, view.accumulated), view.seed);
+    PathRandom random = PathRandom(numbers, view.seed);
     vec3 to_viewer = to_eye(view, seen.start);
     RayCone cone = seen_cone(view, length(seen.start));
     Path path = path_from(seen, to_viewer, mask, cone);
@@ -143,6 +147,9 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
         if (is_baked) {
             take_shade(view, path, asked, plan, met, hit.t, sums.shade);
         } else {
+            if (path.surfaces == 0u && plan.is_specular && met) {
+                sums.reflected += vec2(hit.t, 1.0);
+            }
             take_ray(view, path, plan, met, hit, light);
         }
         if (path.is_over) {
@@ -170,17 +177,22 @@ vec3 light_left(ViewRecord view, Shade shade) {
     return pow(clamp(left, 0.0, 1.0), vec3(2.2));
 }
 
+// A pixel's light, and how far its specular rays went.
+struct Found {
+    LightTexel light;
+    float reflected;
+};
+
 // The mean of a pixel's samples, as composition takes it.
-LightTexel found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel) {
+Found found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel, Random numbers) {
     uint kind = surface_kind(surface);
     if (kind == SURFACE_BAKED && view.has_movers == 0u) {
-        return LightTexel(vec3(0.0), vec3(1.0), vec3(0.0), vec3(0.0));
+        return Found(LightTexel(vec3(0.0), vec3(1.0), vec3(0.0), vec3(0.0)), 0.0);
     }
     SurfacePoint seen = seen_point(surface);
-    uint index = pixel.y * view.width + pixel.x;
-    Sums sums = gather(view, seen, pixel, kind, surface_ray_mask(surface), hash(index + hash(view.seed)));
+    Sums sums = gather(view, seen, pixel, kind, surface_ray_mask(surface), numbers);
     if (kind == SURFACE_BAKED) {
-        return LightTexel(vec3(0.0), light_left(view, sums.shade), vec3(0.0), vec3(0.0));
+        return Found(LightTexel(vec3(0.0), light_left(view, sums.shade), vec3(0.0), vec3(0.0)), 0.0);
     }
     float samples = float(view.samples);
     Channels light = sums.light;
@@ -212,35 +224,70 @@ LightTexel found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel) {
     if (kind == SURFACE_LIT) {
         towards = sums.towards * (is_replaced ? luminance(view.bounce) : 1.0) + sums.towards_open;
     }
-    return LightTexel(light.direct * light_scale, light.indirect * light_scale, light.specular * scale,
-        TOWARDS_SCALE * towards * scale);
+    LightTexel found = LightTexel(light.direct * light_scale, light.indirect * light_scale,
+        light.specular * scale / specular_share(surface), TOWARDS_SCALE * towards * scale);
+    return Found(found, sums.reflected.x / max(sums.reflected.y, 1.0));
+}
+
+// A pixel's own numbers: a sequence that goes on from frame to frame.
+Random own_numbers(ViewRecord view, uint index, uint first) {
+    return Random(hash(index + hash(view.seed)), first);
+}
+
+// The numbers of a texel of light. One of each stratum is traced with those of its place in the frame before, so that what differs is
+// the light.
+Random texel_numbers(ViewRecord view, uvec2 texel, uint index, out bool is_again) {
+    is_again = false;
+    if (view.strata != 0ul) {
+        uvec2 stratum = texel / STRATUM_EDGE;
+        uvec2 place = texel - STRATUM_EDGE * stratum;
+        uint width = (view.light_width + STRATUM_EDGE - 1u) / STRATUM_EDGE;
+        StratumTexel chosen = Strata(view.strata).entries[stratum.y * width + stratum.x];
+        is_again = chosen.chosen == place.y * STRATUM_EDGE + place.x;
+        if (is_again) {
+            return own_numbers(view, chosen.before, view.first_sample_before);
+        }
+    }
+    return own_numbers(view, index, view.first_sample);
+}
+
+// Without a denoiser: samples of frames that do not change add up.
+void keep_exactly(ViewRecord view, uint index, LightTexel light) {
+    if (view.accumulated != 0u) {
+        LightTexel before = LightTexels(view.light).entries[index];
+        float share = float(view.samples) / float(view.accumulated + view.samples);
+        light.direct = mix(before.direct, light.direct, share);
+        light.indirect = mix(before.indirect, light.indirect, share);
+        light.specular = mix(before.specular, light.specular, share);
+        light.towards = mix(before.towards, light.towards, share);
+    }
+    LightTexels(view.light).entries[index] = light;
 }
 
 void main() {
     ViewRecord view = ViewTable(push.view).entries[0];
-    uvec2 pixel = invocation();
-    if (any(greaterThanEqual(pixel, view_size(view)))) {
+    uvec2 texel = invocation();
+    if (any(greaterThanEqual(texel, light_size(view)))) {
         return;
     }
-    uint index = pixel.y * view.width + pixel.x;
-    SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[index];
-    LightTexel light = LightTexel(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    uint index = light_index(view, ivec2(texel));
+    uvec2 pixel = pixel_of_light(view, texel);
+    SurfaceTexel surface = SurfaceTexels(view.surfaces).entries[pixel.y * view.width + pixel.x];
+    Found found = Found(LightTexel(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)), 0.0);
+    bool is_again = false;
     if (surface_kind(surface) != SURFACE_NONE) {
-        light = found_light(view, surface, pixel);
-        if (view.accumulated != 0u) {
-            LightTexel before = LightTexels(view.light).entries[index];
-            float share = float(view.samples) / float(view.accumulated + view.samples);
-            light.direct = mix(before.direct, light.direct, share);
-            light.indirect = mix(before.indirect, light.indirect, share);
-            light.specular = mix(before.specular, light.specular, share);
-            light.towards = mix(before.towards, light.towards, share);
-        }
+        found = found_light(view, surface, pixel, texel_numbers(view, texel, index, is_again));
     }
-    LightTexels(view.light).entries[index] = light;
-    // Kinds that must not be mixed are told apart by the sign of the depth.
-    uint kind = surface_kind(surface);
-    float depth = max(seen_depth(view, surface.start), 1e-20);
-    bool is_second = kind == SURFACE_CATCHER || kind == SURFACE_BAKED;
-    depth = kind == SURFACE_NONE ? 0.0 : is_second ? -depth : depth;
-    IndirectTexels(push.target).entries[index] = IndirectTexel(light.indirect, light.towards, depth);
+    LightTexel light = found.light;
+    if (view.light != 0ul) {
+        keep_exactly(view, index, light);
+        return;
+    }
+    Lit noisy = Lit(vec4(light.direct, 0.0), vec4(light.specular, 0.0), vec4(light.indirect, 0.0), vec4(light.towards, found.reflected));
+    write_lit(view.noisy, index, noisy, 0.5);
+    if (view.luminances != 0ul) {
+        vec3 brightness = luminances(noisy);
+        uvec2 halves = pack_four_halves(min(vec4(brightness, is_again ? 1.0 : 0.0), MOST_HALF));
+        Luminances(view.luminances).entries[index].halves = uint[2](halves.x, halves.y);
+    }
 }

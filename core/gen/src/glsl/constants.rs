@@ -45,7 +45,10 @@ pub fn record_enumerations() -> String {
 pub fn surface_enumerations() -> String {
     [
         constants!(SurfaceKind, "SURFACE": None, Lit, Catcher, Baked, BakedMover),
-        constants!(Paint, "PAINT": Picture, Kind, Normal, Albedo, Direct, Indirect, Sky),
+        constants!(
+            Paint, "PAINT": Picture, Kind, Normal, Albedo, Direct, Indirect, Sky, Specular, Motion, Variance, Gradient, History,
+            Edges
+        ),
         constants!(BlendFactor, "BLEND_FACTOR":
             Zero, One, SourceColor, OneMinusSourceColor, DestinationColor, OneMinusDestinationColor, SourceAlpha,
             OneMinusSourceAlpha, DestinationAlpha, OneMinusDestinationAlpha, SourceAlphaSaturate, ConstantColor,

@@ -2,6 +2,7 @@
 
 use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
 
+use crate::pathtrace::denoise::Store;
 use crate::pathtrace::schedule::{ExposureUse, IDLE_REASON, ViewNeeds, ViewResources};
 use crate::schedule::Resources;
 
@@ -15,10 +16,15 @@ pub(crate) fn declare(
     let mut pass = graph.pass("composite", PassKind::Compute);
     pass.read(views.visibility, Access::SampledCompute)
         .read(views.surfaces, Access::StorageReadCompute)
-        .read(views.light[view], Access::StorageReadCompute)
-        .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)
         .read_write(frame.color, Access::StorageWriteCompute)
         .when(!needs.is_idle, IDLE_REASON);
+    let shown = [Store::Guides, Store::Motions, Store::History].map(|store| views.store(view, store));
+    for resource in shown.into_iter().chain([views.clean_light(view)]).flatten() {
+        pass.read(resource, Access::StorageReadCompute);
+    }
+    if let (Some(composed), true) = (views.composed, needs.smooths_edges) {
+        pass.write(composed, Access::StorageWriteCompute);
+    }
     if let Some(sky) = &views.sky {
         pass.read(sky.texels, Access::StorageReadCompute);
     }

@@ -2,6 +2,7 @@
 
 use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
 
+use crate::pathtrace::denoise::Store;
 use crate::pathtrace::schedule::{ExposureUse, IDLE_REASON, ViewNeeds, ViewResources};
 use crate::schedule::Resources;
 
@@ -26,12 +27,13 @@ pub(crate) fn declare_sum(
     let mut pass = graph.pass("exposure sums", PassKind::Compute);
     pass.read(views.visibility, Access::SampledCompute)
         .read(views.surfaces, Access::StorageReadCompute)
-        .read(views.light[view], Access::StorageReadCompute)
-        .read(views.indirect[needs.filter_steps as usize % 2], Access::StorageReadCompute)
         .read(frame.color, Access::StorageReadCompute)
         .write(views.sums, Access::StorageWriteCompute)
         .when(!needs.is_idle, IDLE_REASON)
         .when(needs.exposure != ExposureUse::None || needs.has_movers, NOT_NEEDED);
+    for resource in [views.clean_light(view), views.store(view, Store::Guides)].into_iter().flatten() {
+        pass.read(resource, Access::StorageReadCompute);
+    }
     if needs.has_movers {
         pass.read_write(views.movers, Access::StorageWriteCompute);
     }

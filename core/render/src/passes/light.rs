@@ -2,6 +2,7 @@
 
 use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
 
+use crate::pathtrace::denoise::Store;
 use crate::pathtrace::schedule::{IDLE_REASON, ViewNeeds, ViewResources};
 use crate::schedule::Resources;
 
@@ -24,7 +25,6 @@ pub(crate) fn declare(
         .read(frame.geometry, views.backend.reads())
         .read(frame.textures, views.backend.reads())
         .read_write(views.counters, views.backend.writes())
-        .write(views.indirect[0], views.backend.writes())
         .when(!needs.is_idle, IDLE_REASON);
     if let Some(sky) = &views.sky {
         pass.read(sky.texels, views.backend.reads());
@@ -32,8 +32,18 @@ pub(crate) fn declare(
     if let (Some([reservoirs, _]), Ok(())) = (views.reservoirs, needs.keeps_lights) {
         pass.read(reservoirs, views.backend.reads());
     }
-    match needs.continues {
-        true => pass.read_write(views.light[view], views.backend.writes()),
-        false => pass.write(views.light[view], views.backend.writes()),
-    };
+    if let Some(light) = views.light.get(view) {
+        match needs.continues {
+            true => pass.read_write(*light, views.backend.writes()),
+            false => pass.write(*light, views.backend.writes()),
+        };
+    }
+    if let Some(strata) = views.store(view, Store::Strata) {
+        pass.read(strata, views.backend.reads());
+    }
+    for store in [Store::Noisy, Store::Luminances] {
+        if let Some(resource) = views.store(view, store) {
+            pass.write(resource, views.backend.writes());
+        }
+    }
 }

@@ -14,8 +14,10 @@ pub(crate) fn declare(graph: &mut GraphBuilder, frame: &Resources, views: &ViewR
     if let Some([now, before]) = views.reservoirs {
         pass.write(now, Access::StorageWriteCompute);
         if needs.has_lights_before {
-            pass.read(views.surfaces_before, Access::StorageReadCompute)
-                .read(before, Access::StorageReadCompute);
+            pass.read(before, Access::StorageReadCompute);
+            if let Some(surfaces) = views.surfaces_before {
+                pass.read(surfaces, Access::StorageReadCompute);
+            }
         }
     }
 }

@@ -249,6 +249,11 @@ impl Arrangement {
             place.is_some()
         });
         scene.verdicts.sort_by_key(|verdict| verdict.operation);
+        scene.deformed.retain_mut(|deformed| {
+            let place = places.get(deformed.operation as usize).copied().flatten();
+            deformed.operation = place.unwrap_or_default();
+            place.is_some()
+        });
         if let Some(sky) = &mut scene.painted_sky {
             sky.draws.retain_mut(|draw| {
                 let place = places.get(draw.operation as usize).copied().flatten();

@@ -6,14 +6,16 @@ use afterglow_gpu::{
 };
 use afterglow_layout::SharedStruct;
 use afterglow_records::{
-    Exposure, ExposureSum, IndirectTexel, LightTexel, MoverSum, RadianceTexel, ReservoirTexel, SurfaceTexel,
-    TraceCounters,
+    Exposure, ExposureSum, LightTexel, MoverSum, RadianceTexel, ReservoirTexel, SurfaceTexel, TraceCounters,
 };
 
+use super::denoise::{Plan, Stores};
 use crate::target::{COLOR_FORMAT, Target};
 
 /// Numbers of draw and triangle of each pixel.
 pub(crate) const VISIBILITY_FORMAT: vk::Format = vk::Format::R32G32_UINT;
+/// Of a pixel between composition and the smoothing of edges: four half floats.
+const COMPOSED_BYTES: u64 = 8;
 /// Pixels along a side of a workgroup that sums for exposure.
 const SUM_EDGE: u32 = 16;
 
@@ -43,13 +45,17 @@ pub(crate) struct ViewBuffers {
     color: vk::Image,
     /// Bindless index of the window's colour as a storage image.
     pub(crate) color_index: u32,
-    /// Of this frame and of the one before, which one is which by the frame's number.
-    pub(crate) surfaces: [Tracked; 2],
-    /// Likewise; none before lights were first kept.
+    pub(crate) surfaces: Tracked,
+    /// Those of the frame before, which swaps places with the one above; none before lights were first kept.
+    pub(crate) surfaces_before: Option<Tracked>,
+    /// Of this frame and of the one before, which one is which by the frame's number. Likewise.
     pub(crate) reservoirs: Option<[Tracked; 2]>,
-    /// Of each view of a frame.
+    /// Of each view of a frame that no denoiser sees.
     pub(crate) light: Vec<Tracked>,
-    pub(crate) indirect: [Tracked; 2],
+    /// Of each view of a frame that one does.
+    pub(crate) stores: Vec<Stores>,
+    /// What is shown before edges are smoothed, once they are.
+    pub(crate) composed: Option<Tracked>,
     pub(crate) sums: Tracked,
     pub(crate) exposure: Tracked,
     /// Sums of moving draws among baked surfaces.
@@ -76,16 +82,12 @@ impl ViewBuffers {
             visibility: TrackedImage { image: visibility, state: ResourceState::UNDEFINED },
             color: target.color.raw(),
             color_index: storage_index(table, &target.color)?,
-            surfaces: [
-                buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
-                buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
-            ],
+            surfaces: buffer("surfaces", pixels * stride::<SurfaceTexel>())?,
+            surfaces_before: None,
             reservoirs: None,
             light: Vec::new(),
-            indirect: [
-                buffer("indirect", pixels * stride::<IndirectTexel>())?,
-                buffer("indirect", pixels * stride::<IndirectTexel>())?,
-            ],
+            stores: Vec::new(),
+            composed: None,
             sums: buffer("exposure sums", u64::from(sum_count(size)) * stride::<ExposureSum>())?,
             exposure: buffer("exposure", stride::<Exposure>())?,
             movers: buffer("mover sums", stride::<MoverSum>())?,
@@ -99,11 +101,43 @@ impl ViewBuffers {
         self.size == target.size && self.color == target.color.raw()
     }
 
-    /// Makes sure that there is light of so many views.
-    pub(crate) fn reserve_views(&mut self, gpu: &Gpu, views: usize) -> Result<(), GpuError> {
-        while self.light.len() < views {
-            let bytes = pixels(self.size) * stride::<LightTexel>();
-            self.light.push(Tracked::new(gpu, "light", bytes)?);
+    /// Makes sure that there is room for the light of so many views, as a denoiser's plan needs it. Says whether what earlier frames
+    /// have left is still there.
+    pub(crate) fn reserve_views(
+        &mut self,
+        gpu: &Gpu,
+        views: usize,
+        plan: &Plan,
+        light_size: [u32; 2],
+    ) -> Result<bool, GpuError> {
+        let mut is_left = true;
+        if plan.output.is_none() {
+            self.stores.clear();
+            let bytes = pixels(light_size) * stride::<LightTexel>();
+            if self.light.first().is_some_and(|light| light.buffer.size() != bytes) {
+                self.light.clear();
+                is_left = false;
+            }
+            while self.light.len() < views {
+                self.light.push(Tracked::new(gpu, "light", bytes)?);
+            }
+            return Ok(is_left);
+        }
+        self.light.clear();
+        if !self.stores.iter().all(|stores| stores.serve(plan, light_size)) {
+            self.stores.clear();
+            is_left = false;
+        }
+        while self.stores.len() < views {
+            self.stores.push(Stores::new(gpu, plan, light_size)?);
+        }
+        Ok(is_left)
+    }
+
+    /// Makes sure that edges can be smoothed.
+    pub(crate) fn reserve_composed(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
+        if self.composed.is_none() {
+            self.composed = Some(Tracked::new(gpu, "composed", pixels(self.size) * COMPOSED_BYTES)?);
         }
         Ok(())
     }
@@ -122,9 +156,31 @@ impl ViewBuffers {
         if self.reservoirs.is_none() {
             let bytes = pixels(self.size) * stride::<ReservoirTexel>();
             let buffer = || Tracked::new(gpu, "reservoirs", bytes);
+            let surfaces = pixels(self.size) * stride::<SurfaceTexel>();
+            self.surfaces_before = Some(Tracked::new(gpu, "surfaces before", surfaces)?);
             self.reservoirs = Some([buffer()?, buffer()?]);
         }
         Ok(())
+    }
+
+    /// What this frame has shown is the frame's before from now on, where lights are kept.
+    pub(crate) fn swap_surfaces(&mut self) {
+        if let Some(before) = &mut self.surfaces_before {
+            std::mem::swap(before, &mut self.surfaces);
+        }
+    }
+
+    /// Bytes of everything that is as large as the window, the window's own images included.
+    pub(crate) fn bytes(&self) -> u64 {
+        let of = |tracked: &Tracked| tracked.buffer.size();
+        let optional = [&self.surfaces_before, &self.composed, &self.radiance];
+        let reservoirs = self.reservoirs.iter().flatten();
+        // Visibility, albedo; colour, depth and stencil of the window.
+        let images = pixels(self.size) * (8 + 4 + 4 + 8);
+        of(&self.surfaces)
+            + optional.into_iter().flatten().chain(reservoirs).chain(&self.light).map(of).sum::<u64>()
+            + self.stores.iter().map(Stores::bytes).sum::<u64>()
+            + images
     }
 
     /// Makes sure that there are sums of so many draws.
@@ -145,7 +201,7 @@ impl ViewBuffers {
 }
 
 impl Tracked {
-    fn new(gpu: &Gpu, name: &str, bytes: u64) -> Result<Self, GpuError> {
+    pub(crate) fn new(gpu: &Gpu, name: &str, bytes: u64) -> Result<Self, GpuError> {
         Ok(Self {
             buffer: gpu.create_buffer(&BufferDesc::new(name, BufferKind::Device, bytes))?,
             state: ResourceState::UNDEFINED,

@@ -54,8 +54,15 @@ impl ChangeHasher {
 
     /// Adds a surface; what of its tables is the same as the last one's is not hashed again.
     pub(crate) fn add(&mut self, frame: &Frame, draw: &Draw, surface: &SurfaceDraw, content: u64) {
-        let without_addresses = SurfaceDraw { vertices: 0, indices: 0, ..*surface };
-        self.hasher.update(bytemuck::bytes_of(&without_addresses));
+        // Where it was before is nothing that light depends on.
+        let as_it_is = SurfaceDraw {
+            vertices: 0,
+            indices: 0,
+            corners_before: 0,
+            object_to_world_before: [[0.0; 4]; 3],
+            ..*surface
+        };
+        self.hasher.update(bytemuck::bytes_of(&as_it_is));
         self.hasher.update(&content.to_le_bytes());
         if let VertexSource::Arena { .. } = draw.source {
             let (words, _) = frame.geometry(draw);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use afterglow_gl::frame::{Draw, Frame, HintMaterial, Topology};
+use afterglow_gl::frame::{Draw, Frame, HintMaterial, Operation, Topology};
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
 use afterglow_records::{
     BAKE_COLORS, BAKE_DOUBLED_LAYER, BAKE_LAYER, BAKE_NONE, BAKE_SHIFT, NO_LIGHT, NO_MAP, SurfaceDraw,
@@ -10,6 +10,7 @@ use afterglow_records::{
 };
 use afterglow_scene::{BakedInto, Class, Relit, SceneLight, Verdict};
 use glam::{DVec3, Mat4, Vec3};
+use hashbrown::HashMap;
 
 use super::arrange::Mark;
 use super::geometry::GeometryReader;
@@ -93,6 +94,17 @@ pub(crate) fn gather<'a>(
     origin: DVec3,
 ) -> Result<Surfaces<'a>, GpuError> {
     let frame = input.frame;
+    let mut corners_before = HashMap::new();
+    for deformed in &tracing.scene.deformed {
+        let corners: &[[f32; 3]] = bytemuck::cast_slice(&deformed.positions);
+        let draw = frame.operations.get(deformed.operation as usize);
+        // Shaders read as many as there are indices.
+        let is_whole =
+            matches!(draw, Some(Operation::Draw(draw)) if draw.index_count as usize == corners.len());
+        if is_whole && !corners.is_empty() {
+            corners_before.insert(deformed.operation, input.arena.push_table(corners)?.address);
+        }
+    }
     let mut gatherer = Gatherer {
         geometry,
         options,
@@ -102,6 +114,7 @@ pub(crate) fn gather<'a>(
         relit: tracing.scene.relit.as_ref(),
         origin,
         layers: LayerFinder::default(),
+        corners_before,
         surfaces: Surfaces::default(),
     };
     let mut verdicts = tracing.scene.verdicts.iter().peekable();
@@ -132,6 +145,8 @@ struct Gatherer<'a, 'i> {
     relit: Option<&'i Relit>,
     origin: DVec3,
     layers: LayerFinder,
+    /// Where the former corners of operations are.
+    corners_before: HashMap<u32, u64>,
     surfaces: Surfaces<'a>,
 }
 
@@ -264,6 +279,19 @@ impl<'a> Gatherer<'a, '_> {
         })
     }
 
+    /// A record with where its surface was in the frame before.
+    fn former(&self, record: SurfaceDraw, place: &Place<'_>, verdict: &Verdict) -> SurfaceDraw {
+        // What stands still needs no evidence of it; all else that was not there before has no place.
+        let is_still = verdict.class == Class::Static;
+        let former = verdict.previous.or(is_still.then_some(verdict.model));
+        SurfaceDraw {
+            corners_before: self.corners_before.get(&(place.operation as u32)).copied().unwrap_or(0),
+            object_to_world_before: former.map_or([[0.0; 4]; 3], |model| relative(&model, self.origin)),
+            object: if is_still { 0 } else { object_number(verdict.object) },
+            ..record
+        }
+    }
+
     /// Adds a record. Returns its number.
     fn record(
         &mut self,
@@ -295,9 +323,15 @@ impl<'a> Gatherer<'a, '_> {
         let record = surface_draw(input.frame, draw, located, rows, kind, ray_mask, number);
         let record = material.write(SurfaceDraw { bake: place.bake, ..record });
         let record = ReplacedMaps::of(&mut lookup, draw)?.write(record);
+        let record = self.former(record, place, verdict);
         self.surfaces.records.push(record);
         Ok(number)
     }
+}
+
+/// A number of an object, the same in all frames; not 0.
+fn object_number(object: u64) -> u32 {
+    (object ^ object >> 32) as u32 | 1
 }
 
 /// The model matrix of what rays meet. `number` is the draw's among the traced ones.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::denoise::Denoiser;
 use afterglow_records::Paint;
 use afterglow_scene::{Class, MEMORY_BYTES, Profile, ProgramCache, Relighting, Replacing};
 use glam::Vec3;
@@ -125,9 +126,15 @@ pub struct PathtraceOptions {
     pub spp: u32,
     /// Of all randomness: equal seeds give equal pictures.
     pub seed: u32,
-    /// Smooth indirect light where samples are few.
-    pub filter: bool,
-    /// Go on with the last frame's samples while nothing changes.
+    /// What makes a picture of few samples, in [`Mode::Pathtrace`].
+    pub denoiser: Denoiser,
+    /// Frames that direct, indirect and specular light are gathered over, at most, 1 to 63.
+    pub histories: [u32; 3],
+    /// Texels of light along a side, as a share of the picture's pixels: from 0.5 to 1.
+    pub light_scale: f32,
+    /// Smooth the edges of triangles, in [`Mode::Pathtrace`].
+    pub smooth_edges: bool,
+    /// Go on with the last frame's samples while nothing changes. Where there is a denoiser, its history is what goes on.
     pub accumulate: bool,
     /// Whether frames wait for the structures that rays need of them, so that a trace always gives the same pictures. If not, what
     /// lasts is built beside the frames, and rays pass through it until it is there ([`Backend::Software`]).
@@ -169,7 +176,10 @@ impl Default for PathtraceOptions {
             keeps_radiance: false,
             spp: 2,
             seed: 0,
-            filter: true,
+            denoiser: Denoiser::default(),
+            histories: [32, 48, 32],
+            light_scale: 1.0,
+            smooth_edges: true,
             accumulate: true,
             waits_for_builds: true,
             profile: None,

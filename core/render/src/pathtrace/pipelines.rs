@@ -18,10 +18,10 @@ pub(crate) struct TracePipelines {
     pub(crate) reservoir: ComputePipeline,
     pub(crate) light: Program,
     pub(crate) reference: Program,
-    pub(crate) filter: ComputePipeline,
     pub(crate) sum: ComputePipeline,
     pub(crate) exposure: ComputePipeline,
     pub(crate) composite: ComputePipeline,
+    pub(crate) edges: ComputePipeline,
 }
 
 impl TracePipelines {
@@ -50,10 +50,10 @@ impl TracePipelines {
             reservoir: pipeline("reservoir", shaders::RESERVOIR_COMP)?,
             light: program("light", shaders::LIGHT_COMP, shaders::LIGHT_RGEN)?,
             reference: program("reference", shaders::REFERENCE_COMP, shaders::REFERENCE_RGEN)?,
-            filter: pipeline("filter", shaders::FILTER_COMP)?,
             sum: pipeline("exposure sums", shaders::EXPOSURE_SUM_COMP)?,
             exposure: pipeline("exposure", shaders::EXPOSURE_COMP)?,
             composite: pipeline("composite", shaders::COMPOSITE_COMP)?,
+            edges: pipeline("edges", shaders::EDGES_COMP)?,
         })
     }
 }

@@ -1,19 +1,23 @@
 //! From a judged frame to what its passes read: surfaces, the world, a record a view.
 
 use afterglow_gpu::GpuError;
-use afterglow_records::{MASK_MOVING, MeshMember, Paint, SurfaceKind, TRACE_PARALLEL, ViewRecord};
+use afterglow_records::{
+    MASK_MOVING, MeshMember, Paint, SurfaceKind, TRACE_PARALLEL, TRACE_SMOOTH_EDGES, ViewRecord,
+};
 use afterglow_scene::Camera;
 use bytemuck::Zeroable;
 use glam::Vec3;
 
 use super::backend::Backend;
-use super::buffers::{ViewBuffers, sum_count};
+use super::buffers::{Tracked, ViewBuffers, sum_count};
 use super::change::{ChangeHasher, History, changes_textures};
+use super::denoise::{Plan, Store};
 use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
 use super::lights::{LightList, highlight};
 use super::lists::{FramePlace, List};
 use super::options::{Mode, SkyChoice};
+use super::past::Left;
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
 use super::sky::{self, SkyUse};
@@ -26,9 +30,6 @@ use crate::uploads::UploadArena;
 const CONTACT_SHARE: f32 = 0.03;
 /// How much of the way to its new value exposure goes in a frame.
 const EXPOSURE_RATE: f32 = 0.15;
-/// Samples a pixel below which indirect light is filtered in so many steps.
-const FILTER_STEPS: [(u32, u32); 4] = [(16, 4), (64, 3), (128, 2), (512, 1)];
-
 /// A view ready to be recorded.
 #[derive(Debug)]
 pub(crate) struct PreparedView {
@@ -45,6 +46,8 @@ pub(crate) struct PreparedTrace {
     pub(crate) views: Vec<PreparedView>,
     /// Which buffers are this frame's, and which the one's before.
     pub(crate) parity: usize,
+    /// Texels of light.
+    pub(crate) light_size: [u32; 2],
     pub(crate) backend: Backend,
     pub(crate) sky: SkyUse,
     /// The world must be brought to the device.
@@ -77,6 +80,8 @@ pub struct TraceCounts {
     pub samples: usize,
     /// What rays see of the sky.
     pub sky: SkyChoice,
+    /// Bytes of what is as large as the window, the window itself included.
+    pub screen_bytes: u64,
     /// Times that the sky was drawn for rays so far.
     pub sky_drawings: usize,
 }
@@ -122,7 +127,6 @@ pub(crate) fn prepare(
         }
     }
     surfaces.list_lights(&tracing.scene.lights, origin, &tracer.options, &mut tracer.light_tree);
-    tracer.kept.begin(&surfaces.lights);
     let world = tracer.world.build(input.frame, &surfaces.traced, &surfaces.lights, origin, input.arena)?;
     for (traced, reach) in surfaces.traced.iter().zip(&tracer.world.reaches) {
         surfaces.records[traced.surface as usize].reach = *reach;
@@ -139,24 +143,28 @@ pub(crate) fn prepare(
     program.make_ready(input.gpu, input.table, world.has_spheres)?;
     let mut views = Vec::with_capacity(tracing.arrangement.views.len());
     let mut finds_exposure = true;
-    let parity = tracer.kept.parity();
-    let mut keeps_lights = false;
+    let parity = tracer.past.parity();
+    let view_count = tracing.arrangement.views.len();
+    let mut left =
+        Left { lights: false, histories: if tracer.plan.output.is_some() { view_count } else { 0 } };
     for (index, operations) in tracing.arrangement.views.iter().enumerate() {
         let kinds = surfaces.kinds_within(operations);
-        let (mut needs, mut record) = tracer.view(index, &kinds, &common, &mut finds_exposure);
-        needs.keeps_lights =
-            tracer.keep_lights(&surfaces.lights, tracing.arrangement.views.len(), &mut record);
+        let (mut needs, mut record) = tracer.view(index, view_count, &kinds, &common, &mut finds_exposure);
+        needs.keeps_lights = tracer.keep_lights(&surfaces.lights, view_count, &mut record);
         needs.has_lights_before = record.reservoirs_before != 0;
-        keeps_lights = needs.keeps_lights.is_ok();
+        left.lights = needs.keeps_lights.is_ok();
+        // A view without light has no history.
+        left.histories = if needs.is_idle { 0 } else { left.histories };
         let record = input.arena.push(bytemuck::bytes_of(&record))?.address;
         views.push(PreparedView { record, needs });
     }
-    tracer.kept.end(camera, origin, &surfaces.lights, keeps_lights);
+    tracer.past.end(camera, origin, &surfaces.lights, common.record.samples, left);
     let seen_sky = if sky.is_mapped() { SkyChoice::Cube } else { SkyChoice::Constant };
     Ok(PreparedTrace {
         marks: surfaces.marks,
         views,
         parity,
+        light_size: tracer.light_size(size),
         backend: tracer.options.backend,
         sky,
         has_builds: tracer.world.structures().has_work(),
@@ -172,6 +180,7 @@ pub(crate) fn prepare(
             lights: common.record.light_count as usize,
             samples: tracer.history.first().map_or(0, |history| history.samples() as usize),
             sky: seen_sky,
+            screen_bytes: tracer.buffers.as_ref().map_or(0, ViewBuffers::bytes),
             sky_drawings: tracer.sky.as_ref().map_or(0, |sky| sky.drawings() as usize),
         },
     })
@@ -217,7 +226,9 @@ impl Tracer {
         let estimator = Estimator::of(self.mode, options);
         let origin = camera.view.inverse().w_axis.truncate();
         let mut record = ViewRecord::zeroed();
-        self.kept.write(&mut record, origin);
+        self.past.write(&mut record, origin);
+        let light_size = self.light_size(size);
+        let mut traits = estimator.traits;
         sky.write(&mut record);
         let mut hasher =
             ChangeHasher::new(size, camera, scene, &surfaces.lights.sources, &estimator, options);
@@ -229,6 +240,12 @@ impl Tracer {
         hasher.add_waiting(world.waiting);
         let is_mover = |traced: &Traced<'_>| u32::from(traced.mask) & MASK_MOVING != 0;
         let rays = PixelRays::new(camera, size);
+        if rays.is_parallel {
+            traits |= TRACE_PARALLEL;
+        }
+        if self.smooths_edges() {
+            traits |= TRACE_SMOOTH_EDGES;
+        }
         Common {
             record: ViewRecord {
                 frame: lists.frame,
@@ -239,12 +256,16 @@ impl Tracer {
                 world: world.top_level,
                 width: size[0],
                 height: size[1],
+                light_width: light_size[0],
+                light_height: light_size[1],
+                light_step: [0, 1].map(|side| size[side] as f32 / light_size[side] as f32),
+                longest: options.histories.map(|frames| frames.clamp(1, 63) as f32),
                 far_count: surfaces.lights.far_count as u32,
                 light_count: surfaces.lights.sources.len() as u32,
                 most_surfaces: estimator.surfaces,
                 asked: estimator.asked,
                 candidates: estimator.candidates,
-                traits: estimator.traits | if rays.is_parallel { TRACE_PARALLEL } else { 0 },
+                traits,
                 most_radiance: estimator.most_radiance,
                 highlight: highlight(&input.frame.lights, &scene.lights),
                 samples: options.spp.max(1),
@@ -266,7 +287,9 @@ impl Tracer {
                 ..record
             },
             hash: hasher.finish(),
-            may_continue: estimator.accumulates && !changes_textures(input.frame),
+            may_continue: estimator.accumulates
+                && self.plan.output.is_none()
+                && !changes_textures(input.frame),
         }
     }
 
@@ -274,6 +297,7 @@ impl Tracer {
     fn view(
         &mut self,
         view: usize,
+        views: usize,
         kinds: &[SurfaceKind],
         common: &Common,
         finds_exposure: &mut bool,
@@ -288,7 +312,6 @@ impl Tracer {
         let may_continue = common.may_continue && !is_idle;
         let accumulated =
             self.history[view].advance(common.hash, may_continue, samples, common.record.frame_number);
-        let (filter_steps, filter_reason) = self.filter_steps(accumulated + samples);
         let has = |kind: SurfaceKind| kinds.contains(&kind);
         // What is relit is as bright as the bake.
         let is_relit = common.record.bake_scale > 0.0;
@@ -302,18 +325,20 @@ impl Tracer {
             keeps_lights: Err(""),
             has_lights_before: false,
             is_idle,
-            filter_steps,
-            filter_reason,
+            has_history: self.plan.output.is_some() && self.past.has_histories(views),
+            smooths_edges: self.smooths_edges(),
             continues: accumulated > 0,
             exposure,
             has_movers: has(SurfaceKind::BakedMover),
         };
-        // What is kept from frame to frame needs other numbers in each, but for those that go on with the same sequence.
-        let begun = if self.options.keeps_lights { self.history[view].begun() } else { 0 };
-        let seed = common.record.seed ^ begun.wrapping_mul(0x9e37_79b9);
-        let mut record = ViewRecord { accumulated, seed, ..common.record };
+        let mut record = ViewRecord { accumulated, ..common.record };
+        if self.plan.output.is_none() {
+            // Each frame has other numbers, but those that add up have one sequence.
+            record.seed ^= self.history[view].begun().wrapping_mul(0x9e37_79b9);
+            record.first_sample = accumulated;
+        }
         if let Some(buffers) = &self.buffers {
-            name_buffers(&mut record, buffers, self.kept.parity(), view, filter_steps);
+            name_buffers(&mut record, buffers, &self.plan, self.past.parity(), view, needs.has_history);
         }
         (needs, record)
     }
@@ -329,23 +354,14 @@ impl Tracer {
         let reservoirs = reservoirs.filter(|_| self.options.keeps_lights && self.mode == Mode::Pathtrace);
         let [now, before] = match reservoirs {
             None => return Err("not asked for"),
-            Some(both) => [self.kept.parity(), 1 - self.kept.parity()].map(|of| both[of].buffer.address()),
+            Some(both) => [self.past.parity(), 1 - self.past.parity()].map(|of| both[of].buffer.address()),
         };
-        self.kept.serves(lights, record.asked, views, record.accumulated)?;
+        self.past.serves_lights(lights, record.asked, views, record.accumulated)?;
         record.reservoirs = now;
-        if self.kept.has_before() {
+        if self.past.has_lights(lights) {
             record.reservoirs_before = before;
         }
         Ok(())
-    }
-
-    /// Steps of the filter for so many samples, and why there are no more.
-    fn filter_steps(&self, samples: u32) -> (u32, &'static str) {
-        if !self.options.filter || self.mode == Mode::Reference {
-            return (0, "not asked for");
-        }
-        let steps = FILTER_STEPS.iter().find(|(most, _)| samples < *most);
-        (steps.map_or(0, |(_, steps)| *steps), "there are samples enough")
     }
 }
 
@@ -353,20 +369,33 @@ impl Tracer {
 fn name_buffers(
     record: &mut ViewRecord,
     buffers: &ViewBuffers,
+    plan: &Plan,
     parity: usize,
     view: usize,
-    filter_steps: u32,
+    has_history: bool,
 ) {
-    record.surfaces = buffers.surfaces[parity].buffer.address();
-    record.surfaces_before = buffers.surfaces[1 - parity].buffer.address();
+    let optional = |tracked: &Option<Tracked>| tracked.as_ref().map_or(0, |of| of.buffer.address());
+    record.surfaces = buffers.surfaces.buffer.address();
+    record.surfaces_before = optional(&buffers.surfaces_before);
     record.light = buffers.light.get(view).map_or(0, |light| light.buffer.address());
-    record.indirect = buffers.indirect[filter_steps as usize % 2].buffer.address();
     record.sums = buffers.sums.buffer.address();
     record.counters = buffers.counters.buffer.address();
-    record.radiance = buffers.radiance.as_ref().map_or(0, |radiance| radiance.buffer.address());
+    record.radiance = optional(&buffers.radiance);
+    record.composed = optional(&buffers.composed);
     record.movers = buffers.movers.buffer.address();
     record.exposure = buffers.exposure.buffer.address();
     record.visibility = buffers.visibility_index;
     record.color = buffers.color_index;
     record.albedo = buffers.albedo_index;
+    let Some(stores) = buffers.stores.get(view) else { return };
+    let address = |store: Store| stores.address(store, parity);
+    record.guides = address(Store::Guides);
+    record.guides_before = if has_history { address(Store::GuidesBefore) } else { 0 };
+    record.motions = address(Store::Motions);
+    record.noisy = address(Store::Noisy);
+    record.history = address(Store::History);
+    record.denoised = plan.output.map_or(0, address);
+    record.strata = address(Store::Strata);
+    record.gradients = plan.gradients.map_or(0, address);
+    record.luminances = address(Store::Luminances);
 }

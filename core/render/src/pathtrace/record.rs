@@ -5,6 +5,7 @@ use afterglow_records::ViewPush;
 use bytemuck::Zeroable;
 
 use super::buffers::{ViewBuffers, sum_groups};
+use super::denoise::{Plan, StagePipelines, Step};
 use super::lists::Lists;
 use super::pipelines::{TracePipelines, pixel_groups, run};
 use super::prepare::PreparedTrace;
@@ -18,6 +19,8 @@ pub(crate) struct TraceContext<'a> {
     pub(crate) commands: &'a Commands<'a>,
     pub(crate) table: &'a BindlessTable,
     pub(crate) pipelines: &'a TracePipelines,
+    pub(crate) plan: &'a Plan,
+    pub(crate) stages: &'a StagePipelines,
     pub(crate) structures: &'a Structures,
     pub(crate) lists: &'a Lists,
     pub(crate) buffers: &'a ViewBuffers,
@@ -31,7 +34,6 @@ impl TraceContext<'_> {
         let groups = pixel_groups(self.buffers.size);
         let has_spheres = self.prepared.has_spheres;
         let push = |view: usize| ViewPush { view: self.prepared.views[view].record, ..ViewPush::zeroed() };
-        let indirect = |index: usize| self.buffers.indirect[index].buffer.address();
         let (pipeline, push, groups) = match work {
             TraceWork::Lists => {
                 self.lists.record(self.commands);
@@ -81,24 +83,32 @@ impl TraceContext<'_> {
             TraceWork::Surface(view) => (&pipelines.surface, push(view), groups),
             TraceWork::Reservoir(view) => (&pipelines.reservoir, push(view), groups),
             TraceWork::Light(view) => {
-                let push = ViewPush { target: indirect(0), ..push(view) };
-                pipelines.light.run(self.commands, self.table, &push, self.buffers.size, has_spheres);
+                let size = self.prepared.light_size;
+                pipelines.light.run(self.commands, self.table, &push(view), size, has_spheres);
                 return;
             }
-            TraceWork::Filter(view, step) => {
-                let from = step as usize % 2;
-                let push = ViewPush {
-                    source: indirect(from),
-                    target: indirect(1 - from),
-                    step: 1 << step,
-                    ..push(view)
-                };
-                (&pipelines.filter, push, groups)
+            TraceWork::BeforeLight(view, number) => {
+                self.record_step(view, self.plan.before_light.get(number));
+                return;
+            }
+            TraceWork::AfterLight(view, number) => {
+                self.record_step(view, self.plan.after_light.get(number));
+                return;
             }
             TraceWork::Sum(view) => (&pipelines.sum, push(view), sum_groups(self.buffers.size)),
             TraceWork::Exposure(view) => (&pipelines.exposure, push(view), [1, 1]),
             TraceWork::Composite(view) => (&pipelines.composite, push(view), groups),
+            TraceWork::Edges(view) => (&pipelines.edges, push(view), groups),
         };
         run(self.commands, self.table, pipeline, &push, groups);
+    }
+
+    /// Records a step of the denoiser's.
+    fn record_step(&self, view: usize, step: Option<&Step>) {
+        let (Some(step), Some(stores)) = (step, self.buffers.stores.get(view)) else { return };
+        let Some(pipeline) = self.stages.get(step.stage) else { return };
+        let push = step.push(self.prepared.views[view].record, stores, self.prepared.parity);
+        let size = stores.size.map(|side| side.div_ceil(step.stage.edge()));
+        run(self.commands, self.table, pipeline, &push, pixel_groups(size));
     }
 }

@@ -5,9 +5,10 @@ use afterglow_records::SKY_EDGE;
 
 use super::backend::Backend;
 use super::buffers::{Tracked, ViewBuffers};
+use super::denoise::{Plan, Store, StoreResources};
 use super::prepare::PreparedTrace;
 use super::sky::{SIDES, SkyMap};
-use crate::passes::{build, composite, exposure, filter, light, reference, reservoir, sky, surface};
+use crate::passes::{build, composite, edges, exposure, light, reference, reservoir, sky, surface};
 use crate::schedule::Resources;
 
 /// What a pass of a view records; the number is the view's.
@@ -28,12 +29,16 @@ pub(crate) enum TraceWork {
     /// Which light of many each pixel keeps.
     Reservoir(usize),
     Light(usize),
-    /// A step of the filter, of so many.
-    Filter(usize, u32),
+    /// A step of the denoiser's before light is traced, by its number.
+    BeforeLight(usize, usize),
+    /// And after that.
+    AfterLight(usize, usize),
     ClearSums,
     Sum(usize),
     Exposure(usize),
     Composite(usize),
+    /// The smoothing of edges.
+    Edges(usize),
 }
 
 /// What of a view's light is needed.
@@ -47,10 +52,9 @@ pub(crate) struct ViewNeeds {
     pub(crate) has_lights_before: bool,
     /// Nothing in the picture would change by light.
     pub(crate) is_idle: bool,
-    /// Steps of the filter.
-    pub(crate) filter_steps: u32,
-    /// Why these are not more.
-    pub(crate) filter_reason: &'static str,
+    /// The frame before has left a history of the view.
+    pub(crate) has_history: bool,
+    pub(crate) smooths_edges: bool,
     /// The view's samples go on from earlier frames'.
     pub(crate) continues: bool,
     pub(crate) exposure: ExposureUse,
@@ -102,11 +106,14 @@ pub(crate) struct ViewResources {
     /// Surfaces, lights, and what else rays read.
     pub(crate) lists: ResourceId,
     pub(crate) surfaces: ResourceId,
-    pub(crate) surfaces_before: ResourceId,
+    pub(crate) surfaces_before: Option<ResourceId>,
     /// This frame's and those of the one before.
     pub(crate) reservoirs: Option<[ResourceId; 2]>,
     pub(crate) light: Vec<ResourceId>,
-    pub(crate) indirect: [ResourceId; 2],
+    pub(crate) stores: Vec<StoreResources>,
+    /// Which of these holds clean light.
+    pub(crate) clean: Option<Store>,
+    pub(crate) composed: Option<ResourceId>,
     pub(crate) sums: ResourceId,
     pub(crate) exposure: ResourceId,
     pub(crate) movers: ResourceId,
@@ -124,6 +131,7 @@ impl ViewResources {
         [world, lists]: [ResourceState; 2],
         backend: Backend,
         parity: usize,
+        clean: Option<Store>,
         sky: Option<&SkyMap>,
     ) -> Self {
         let visibility = &buffers.visibility;
@@ -133,6 +141,7 @@ impl ViewResources {
         let albedo = graph.import("albedo", albedo_desc, buffers.albedo.state);
         let world = graph.import("world", ResourceDesc::Buffer { bytes: 1 }, world);
         let lists = graph.import("lists", ResourceDesc::Buffer { bytes: 1 }, lists);
+        let stores = buffers.stores.iter().map(|stores| stores.declare(graph, parity)).collect();
         let mut import = |name: &'static str, tracked: &super::buffers::Tracked| {
             let bytes = tracked.buffer.size();
             graph.import(name, ResourceDesc::Buffer { bytes }, tracked.state)
@@ -143,13 +152,15 @@ impl ViewResources {
             albedo,
             world,
             lists,
-            surfaces: import("surfaces", &buffers.surfaces[parity]),
-            surfaces_before: import("surfaces before", &buffers.surfaces[1 - parity]),
+            surfaces: import("surfaces", &buffers.surfaces),
+            surfaces_before: buffers.surfaces_before.as_ref().map(|before| import("surfaces before", before)),
             reservoirs: buffers.reservoirs.as_ref().map(|both| {
                 [import("reservoirs", &both[parity]), import("reservoirs before", &both[1 - parity])]
             }),
             light: buffers.light.iter().map(|light| import("light", light)).collect(),
-            indirect: [import("indirect", &buffers.indirect[0]), import("indirect", &buffers.indirect[1])],
+            stores,
+            clean,
+            composed: buffers.composed.as_ref().map(|composed| import("composed", composed)),
             sums: import("exposure sums", &buffers.sums),
             exposure: import("exposure", &buffers.exposure),
             movers: import("mover sums", &buffers.movers),
@@ -175,6 +186,21 @@ impl ViewResources {
             graph.output(*light);
         }
         resources
+    }
+}
+
+impl ViewResources {
+    /// What composition takes the light of a view from.
+    pub(crate) fn clean_light(&self, view: usize) -> Option<ResourceId> {
+        match self.clean {
+            Some(store) => self.stores.get(view)?.get(store),
+            None => self.light.get(view).copied(),
+        }
+    }
+
+    /// A store of a view, if there are any.
+    pub(crate) fn store(&self, view: usize, store: Store) -> Option<ResourceId> {
+        self.stores.get(view)?.get(store)
     }
 }
 
@@ -217,6 +243,7 @@ pub(crate) fn declare_view(
     views: &ViewResources,
     view: usize,
     prepared: &PreparedTrace,
+    plan: &Plan,
 ) {
     let needs = &prepared.views[view].needs;
     if let (0, Some(sky)) = (view, &views.sky) {
@@ -240,18 +267,19 @@ pub(crate) fn declare_view(
         return;
     }
     work.push(TraceWork::Surface(view));
-    surface::declare(graph, frame, views, needs);
+    surface::declare(graph, frame, views, view, needs);
     work.push(TraceWork::Reservoir(view));
     reservoir::declare(graph, frame, views, needs);
+    let stores = views.stores.get(view).cloned().unwrap_or_default();
+    for (number, step) in plan.before_light.iter().enumerate() {
+        work.push(TraceWork::BeforeLight(view, number));
+        step.declare(graph, &stores, needs);
+    }
     work.push(TraceWork::Light(view));
     light::declare(graph, frame, views, view, needs);
-    for step in 0..needs.filter_steps {
-        work.push(TraceWork::Filter(view, step));
-        filter::declare(graph, views, step, needs);
-    }
-    if needs.filter_steps == 0 {
-        work.push(TraceWork::Filter(view, 0));
-        filter::declare_culled(graph, views, needs);
+    for (number, step) in plan.after_light.iter().enumerate() {
+        work.push(TraceWork::AfterLight(view, number));
+        step.declare(graph, &stores, needs);
     }
     if needs.has_movers {
         work.push(TraceWork::ClearSums);
@@ -267,4 +295,8 @@ pub(crate) fn declare_view(
     }
     work.push(TraceWork::Composite(view));
     composite::declare(graph, frame, views, view, needs);
+    if needs.smooths_edges {
+        work.push(TraceWork::Edges(view));
+        edges::declare(graph, frame, views, needs);
+    }
 }

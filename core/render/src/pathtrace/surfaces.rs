@@ -104,7 +104,9 @@ pub(crate) fn surface_draw(
     SurfaceDraw {
         vertices: located.vertices,
         indices: located.indices,
+        corners_before: 0,
         object_to_world,
+        object_to_world_before: [[0.0; 4]; 3],
         viewport: [viewport.x, viewport.y, viewport.width, viewport.height].map(|side| side as f32),
         state: std::array::from_fn(|i| words[i]),
         textures: located.push.textures,
@@ -129,7 +131,7 @@ pub(crate) fn surface_draw(
         base_color: [-1.0; 3],
         maps: 0,
         reach: f32::INFINITY,
-        padding: 0,
+        object: 0,
     }
 }
 

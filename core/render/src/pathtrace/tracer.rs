@@ -5,15 +5,17 @@ use std::sync::Arc;
 use afterglow_frame_graph::{CompiledGraph, ResourceState};
 use afterglow_gl::frame::Frame;
 use afterglow_gpu::{BindlessTable, Gpu, GpuError};
+use afterglow_records::Paint;
 use afterglow_scene::{Camera, Recovery, Scene};
 
 use super::arrange::{Arrangement, arrange};
 use super::buffers::ViewBuffers;
 use super::change::History;
-use super::kept::KeptLights;
+use super::denoise::{Denoiser, Plan, StagePipelines};
 use super::kept_tree::KeptTree;
 use super::lists::Lists;
 use super::options::{Mode, PathtraceOptions};
+use super::past::Past;
 use super::pipelines::TracePipelines;
 use super::prepare::PreparedTrace;
 use super::rays::PixelRays;
@@ -61,7 +63,11 @@ pub(crate) struct Tracer {
     pub(crate) buffers: Option<ViewBuffers>,
     /// Of each view.
     pub(crate) history: Vec<History>,
-    pub(crate) kept: KeptLights,
+    pub(crate) past: Past,
+    /// What the denoiser does.
+    pub(crate) plan: Plan,
+    /// The pipelines that do it.
+    pub(crate) stages: StagePipelines,
     pub(crate) light_tree: KeptTree,
     /// What rays see of the sky; none before one was first seen.
     pub(crate) sky: Option<SkyMap>,
@@ -156,7 +162,9 @@ impl Tracer {
             pipelines,
             buffers: None,
             history: Vec::new(),
-            kept: KeptLights::default(),
+            past: Past::default(),
+            plan: Plan::default(),
+            stages: StagePipelines::default(),
             sky: None,
             has_camera_rays: false,
             has_said_blind: false,
@@ -228,10 +236,39 @@ impl Tracer {
             self.has_exposure = false;
             self.buffers = Some(ViewBuffers::new(gpu, table, target)?);
         }
-        match &mut self.buffers {
-            Some(buffers) => buffers.reserve_views(gpu, views),
-            None => Ok(()),
+        self.plan = self.denoiser().plan();
+        self.stages.make_ready(gpu, table, &self.plan)?;
+        let light_size = self.light_size(target.size);
+        let Some(buffers) = &mut self.buffers else { return Ok(()) };
+        if !buffers.reserve_views(gpu, views, &self.plan, light_size)? {
+            self.past.forget();
+            self.history.iter_mut().for_each(History::forget);
         }
+        match self.smooths_edges() {
+            true => self.buffers.as_mut().map_or(Ok(()), |buffers| buffers.reserve_composed(gpu)),
+            false => Ok(()),
+        }
+    }
+
+    /// The denoiser; none where light adds up without any.
+    fn denoiser(&self) -> Denoiser {
+        if self.mode == Mode::Reference { Denoiser::None } else { self.options.denoiser }
+    }
+
+    /// Whether edges of triangles are smoothed.
+    pub(crate) fn smooths_edges(&self) -> bool {
+        self.mode == Mode::Pathtrace && self.options.smooth_edges && self.options.paint == Paint::Picture
+    }
+
+    /// Texels of light in a window of a size.
+    pub(crate) fn light_size(&self, size: [u32; 2]) -> [u32; 2] {
+        let scale = match self.mode {
+            Mode::Pathtrace => self.options.light_scale.clamp(0.5, 1.0),
+            _ => 1.0,
+        };
+        // Not max(): what that makes of NaN is not wanted.
+        let scale = if scale.is_finite() { f64::from(scale) } else { 1.0 };
+        size.map(|side| ((f64::from(side) * scale).ceil() as u32).clamp(1, side.max(1)))
     }
 
     /// Takes over how a frame leaves what lives longer than it.
@@ -255,8 +292,12 @@ impl Tracer {
             keep(&mut buffers.visibility.state, resources.visibility);
             keep(&mut buffers.albedo.state, resources.albedo);
             let parity = prepared.parity;
-            keep(&mut buffers.surfaces[parity].state, resources.surfaces);
-            keep(&mut buffers.surfaces[1 - parity].state, resources.surfaces_before);
+            keep(&mut buffers.surfaces.state, resources.surfaces);
+            if let (Some(before), Some(resource)) = (&mut buffers.surfaces_before, resources.surfaces_before)
+            {
+                keep(&mut before.state, resource);
+            }
+            buffers.swap_surfaces();
             if let (Some(both), Some([now, before])) = (&mut buffers.reservoirs, resources.reservoirs) {
                 keep(&mut both[parity].state, now);
                 keep(&mut both[1 - parity].state, before);
@@ -271,8 +312,11 @@ impl Tracer {
             for (light, resource) in buffers.light.iter_mut().zip(&resources.light) {
                 keep(&mut light.state, *resource);
             }
-            for (indirect, resource) in buffers.indirect.iter_mut().zip(&resources.indirect) {
-                keep(&mut indirect.state, *resource);
+            for (stores, resources) in buffers.stores.iter_mut().zip(&resources.stores) {
+                stores.keep_states(graph, resources, parity);
+            }
+            if let (Some(composed), Some(resource)) = (&mut buffers.composed, resources.composed) {
+                keep(&mut composed.state, resource);
             }
         }
         let finds = |exposure| matches!(exposure, ExposureUse::Found { .. });
@@ -281,7 +325,7 @@ impl Tracer {
 
     /// After a frame that was not recorded: what its passes would have left is not there.
     pub(crate) fn forget(&mut self) {
-        self.kept.forget();
+        self.past.forget();
         self.lists.forget();
         self.sky.iter_mut().for_each(SkyMap::forget);
         self.history.iter_mut().for_each(History::forget);

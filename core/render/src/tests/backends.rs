@@ -10,7 +10,7 @@ use glam::{DMat4, DVec3, Mat4, Vec3};
 
 use super::pathtrace::{OPEN, SHADOW, SIZE, Stage, look_down, slab};
 use crate::testing::{FrameBuilder, WHITE, assert_valid, renderer};
-use crate::{Backend, Mode, PathtraceOptions, Radiance};
+use crate::{Backend, Denoiser, Mode, PathtraceOptions, Radiance};
 
 /// Share of pixels that may differ by more than a step of 8 bits.
 const MOST_DIFFERING: f64 = 0.004;
@@ -99,7 +99,7 @@ fn wave(gl: &mut Context, phase: f32) {
 #[test]
 fn what_moves_and_bends_is_met_where_it_is() {
     let stages = pictures(
-        |options| options.filter = false,
+        |options| options.denoiser = Denoiser::None,
         |stage| {
             for frame in 0..6 {
                 let phase = frame as f32;
@@ -114,7 +114,7 @@ fn what_moves_and_bends_is_met_where_it_is() {
 #[test]
 fn what_the_device_moves_is_what_the_processor_moves() {
     let picture = |by_device: bool| {
-        let mut stage = Stage::new(Mode::Pathtrace, |options| options.filter = false);
+        let mut stage = Stage::new(Mode::Pathtrace, |options| options.denoiser = Denoiser::None);
         if by_device {
             let renderer = &mut *stage.renderer.lock().unwrap();
             let world = &mut renderer.tracer.as_mut().unwrap().world;
@@ -136,7 +136,7 @@ fn what_the_device_moves_is_what_the_processor_moves() {
 #[test]
 fn what_lasts_stays_as_it_is_when_it_is_made_smaller() {
     let [software, hardware] = pictures(
-        |options| options.filter = false,
+        |options| options.denoiser = Denoiser::None,
         |stage| {
             stage.gl.new_list(1, GL_COMPILE);
             for row in 0..40 {

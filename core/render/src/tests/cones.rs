@@ -6,7 +6,7 @@ use afterglow_gl::{Context, Params};
 
 use super::pathtrace::{SIZE, Stage};
 use crate::testing::assert_valid;
-use crate::{Mode, Radiance};
+use crate::{Denoiser, Mode, Radiance};
 
 /// Texels along a side of the texture, which is two squares wide and high.
 const TEXELS: u32 = 64;
@@ -95,7 +95,7 @@ impl Hall {
     fn radiance(&self) -> Radiance {
         let mut stage = Stage::new(self.mode, |options| {
             options.spp = self.samples;
-            options.filter = false;
+            options.denoiser = Denoiser::None;
             options.keeps_radiance = true;
         });
         self.draw(&mut stage.gl);

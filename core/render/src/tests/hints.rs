@@ -7,8 +7,8 @@ use afterglow_gl::{Context, Params};
 use afterglow_scene::{LightOrigin, TriangleCounts};
 
 use super::pathtrace::{OPEN, SHADOW, SIZE, Stage, look_down, slab};
-use crate::Mode;
 use crate::testing::assert_valid;
+use crate::{Denoiser, Mode, Paint};
 
 /// A floor and a slab over it, unlit, as the program's calls between say of what.
 #[derive(Default)]
@@ -204,7 +204,9 @@ fn classes_that_are_said_are_those_that_are_reported() {
 
 #[test]
 fn a_cut_forgets_what_was_gathered() {
-    let mut stage = Stage::new(Mode::Pathtrace, |options| options.accumulate = true);
+    let mut stage = Stage::new(Mode::Pathtrace, |options| {
+        (options.accumulate, options.denoiser) = (true, Denoiser::None);
+    });
     let samples =
         |stage: &Stage| stage.renderer.lock().unwrap().frame_report().unwrap().traced.unwrap().samples;
     draw(&mut stage, &Said::default());
@@ -212,6 +214,19 @@ fn a_cut_forgets_what_was_gathered() {
     assert_eq!(samples(&stage), 8);
     draw(&mut stage, &Said { frame: Some(&|gl| gl.scene_cut()), ..Said::default() });
     assert_eq!(samples(&stage), 4);
+}
+
+#[test]
+fn a_cut_leaves_denoisers_no_history() {
+    let mut stage = Stage::new(Mode::Pathtrace, |options| options.paint = Paint::History);
+    let mut mean = |said: &Said| {
+        draw(&mut stage, said);
+        let picture = stage.picture();
+        picture.iter().map(|byte| f64::from(*byte)).sum::<f64>() / picture.len() as f64
+    };
+    let first = mean(&Said::default());
+    assert!(mean(&Said::default()) > first);
+    assert_eq!(mean(&Said { frame: Some(&|gl| gl.scene_cut()), ..Said::default() }), first);
 }
 
 #[test]

@@ -172,7 +172,7 @@ fn a_normal_image_turns_the_surface_and_says_what_is_metal() {
     // A metal has no colour of its own but what it mirrors: from the side that is the dim sky.
     let metal = folder_with("_normal.png", &png(&[128, 128, 255, 255], Rgba8));
     let metal = (ratio(&metal, LEFT), ratio(&metal, RIGHT));
-    assert!((metal.0 - flat.0).abs() > 0.1 * flat.0, "{metal:?} {flat:?}");
+    assert!((metal.0 - flat.0).abs() > 0.05 * flat.0, "{metal:?} {flat:?}");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use afterglow_records::{SKY_EDGE, SKY_LEVELS};
 use super::pathtrace::{SIZE, Stage, slab};
 use crate::pathtrace::sky::{SIDES, SkyMap};
 use crate::testing::{assert_valid, gpu};
-use crate::{Backend, Mode, SkyChoice, TraceCounts};
+use crate::{Backend, Denoiser, Mode, SkyChoice, TraceCounts};
 
 /// What a vertex of the sky is given, by where it is seen from the eye and whether that belongs to the left half.
 type Paint<'a> = &'a dyn Fn(&mut Context, [f32; 3], bool);
@@ -105,7 +105,7 @@ fn draw(stage: &mut Stage, world: &World) {
 fn stage(sky: SkyChoice) -> Stage {
     Stage::new(Mode::Pathtrace, |options| {
         options.keeps_radiance = true;
-        options.filter = false;
+        options.denoiser = Denoiser::None;
         options.sky = sky;
     })
 }
@@ -136,6 +136,7 @@ fn a_mirror_shows_the_sky_that_is_there() {
     for backend in [Backend::Software, Backend::Hardware] {
         let mut stage = Stage::new(Mode::Pathtrace, |options| {
             (options.keeps_radiance, options.backend) = (true, backend);
+            options.denoiser = Denoiser::None;
         });
         draw(&mut stage, &World::default());
         assert_shows(&stage, LEFT, RED);

@@ -1,6 +1,7 @@
 //! Materials at the ends of what they can be.
 
 use afterglow_extremes::{Shot, World, cube, lambert, metal, pathtrace, quad, reference, shining};
+use afterglow_render::Denoiser;
 use afterglow_scene_file::Material;
 use glam::{DVec3, Vec3};
 
@@ -128,7 +129,7 @@ fn limits_tell_what_they_remove() {
     let picture = |most| {
         pathtrace(
             &world,
-            &Shot::of(16).with(|options| (options.most_radiance, options.filter) = (most, false)),
+            &Shot::of(16).with(|options| (options.most_radiance, options.denoiser) = (most, Denoiser::None)),
         )
     };
     let (whole, limited) = (picture(f32::INFINITY), picture(2.0));

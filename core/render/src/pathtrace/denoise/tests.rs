@@ -1,0 +1,281 @@
+//! Denoisers alone, on light that is made up.
+
+use afterglow_gpu::{BindlessSizes, Buffer, Commands, vk};
+use afterglow_records::{ChannelTexel, GuideTexel, LuminanceTexel, MotionTexel, StratumTexel, ViewRecord};
+use bytemuck::Zeroable;
+
+use super::*;
+use crate::pathtrace::pipelines::{pixel_groups, run};
+use crate::testing::{assert_valid, gpu};
+
+const SIZE: [u32; 2] = [37, 29];
+const TEXELS: usize = (SIZE[0] * SIZE[1]) as usize;
+/// Frames that are gathered over at most.
+const LONGEST: f32 = 16.0;
+
+/// Light of a texel, the same in all channels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Light([f32; 3]);
+
+impl Light {
+    fn luminance(self) -> f32 {
+        let [red, green, blue] = self.0;
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+    }
+
+    fn texel(self) -> ChannelTexel {
+        let [red, green, blue] = self.0.map(half);
+        ChannelTexel {
+            halves: [red | green << 16, blue, red | green << 16, blue, red | green << 16, blue, 0, 0],
+        }
+    }
+
+    fn of(texel: ChannelTexel, channel: usize) -> Self {
+        let [first, second] = [texel.halves[2 * channel], texel.halves[2 * channel + 1]];
+        Self([first, first >> 16, second].map(|bits| half::f16::from_bits(bits as u16).to_f32()))
+    }
+}
+
+fn half(value: f32) -> u32 {
+    half::f16::from_f32(value).to_bits().into()
+}
+
+/// What a denoiser makes of frames of one window.
+struct Subject {
+    gpu: Gpu,
+    table: BindlessTable,
+    plan: Plan,
+    stages: StagePipelines,
+    stores: Stores,
+    frame: u32,
+}
+
+impl Subject {
+    fn new(denoiser: Denoiser) -> Self {
+        let gpu = gpu();
+        let table = gpu.create_bindless_table(BindlessSizes::default()).unwrap();
+        let plan = denoiser.plan();
+        let mut stages = StagePipelines::default();
+        stages.make_ready(&gpu, &table, &plan).unwrap();
+        let stores = Stores::new(&gpu, &plan, SIZE).unwrap();
+        Self { gpu, table, plan, stages, stores, frame: 0 }
+    }
+
+    fn parity(&self) -> usize {
+        self.frame as usize % 2
+    }
+
+    /// The record of a view that looks along -z at a wall 5 away.
+    fn record(&self) -> Buffer {
+        let address = |store| self.stores.address(store, self.parity());
+        let has_history = self.frame > 0;
+        let mut clip = [[0.0; 4]; 4];
+        // Half of the picture is as wide as the wall is far.
+        clip[0][0] = 1.0;
+        clip[1][1] = 1.0;
+        clip[3][2] = -1.0;
+        let step = 2.0 / SIZE[0] as f32;
+        let record = ViewRecord {
+            guides: address(Store::Guides),
+            guides_before: if has_history { address(Store::GuidesBefore) } else { 0 },
+            motions: address(Store::Motions),
+            noisy: address(Store::Noisy),
+            history: address(Store::History),
+            strata: address(Store::Strata),
+            gradients: self.plan.gradients.map_or(0, address),
+            luminances: address(Store::Luminances),
+            width: SIZE[0],
+            height: SIZE[1],
+            light_width: SIZE[0],
+            light_height: SIZE[1],
+            light_step: [1.0; 2],
+            pixel_spread: step,
+            forward: [0.0, 0.0, -1.0],
+            pixel_origin: [-1.0 + step / 2.0, 1.0 - step / 2.0, -1.0],
+            pixel_right: [step, 0.0, 0.0],
+            pixel_down: [0.0, -step, 0.0],
+            clip_before: clip,
+            depth_before: [0.0, 0.0, -1.0, 0.0],
+            longest: [LONGEST; 3],
+            frame_number: self.frame,
+            ..ViewRecord::zeroed()
+        };
+        self.gpu.upload_buffer("view", vk::BufferUsageFlags::empty(), bytemuck::bytes_of(&record)).unwrap()
+    }
+
+    fn steps(&self, steps: &[Step], record: &Buffer) {
+        for step in steps {
+            let push = step.push(record.address(), &self.stores, self.parity());
+            let groups = pixel_groups(SIZE.map(|side| side.div_ceil(step.stage.edge())));
+            let pipeline = self.stages.get(step.stage).unwrap();
+            self.gpu
+                .run(|commands: &Commands<'_>| run(commands, &self.table, pipeline, &push, groups))
+                .unwrap();
+        }
+    }
+
+    /// Of each texel, the one of the frame before whose numbers it is traced with.
+    fn again(&self) -> Vec<Option<usize>> {
+        let mut again = vec![None; TEXELS];
+        if self.plan.uses(Store::Strata) {
+            let bytes = self.stores.read(&self.gpu, Store::Strata, self.parity());
+            let strata: Vec<StratumTexel> = bytemuck::pod_collect_to_vec(&bytes);
+            let across = SIZE[0].div_ceil(3);
+            for (number, stratum) in strata.iter().enumerate().filter(|(_, stratum)| stratum.chosen < 9) {
+                let (x, y) = (
+                    number as u32 % across * 3 + stratum.chosen % 3,
+                    number as u32 / across * 3 + stratum.chosen / 3,
+                );
+                again[(y * SIZE[0] + x) as usize] = Some(stratum.before as usize);
+            }
+        }
+        again
+    }
+
+    /// A frame of the light that texels have in a frame, which shows these guides, nothing having moved. Where older numbers are used
+    /// again, the light is of the frame before if `repeats`. Returns what the denoiser makes of it.
+    fn frame(
+        &mut self,
+        guides: &[GuideTexel],
+        repeats: bool,
+        light: impl Fn(usize, u32) -> Light,
+    ) -> Vec<ChannelTexel> {
+        let parity = self.parity();
+        let depth = |guide: &GuideTexel| if self.frame > 0 { guide.depth } else { 0.0 };
+        let motions: Vec<_> =
+            guides.iter().map(|guide| MotionTexel { offset: 0, depth: depth(guide) }).collect();
+        self.stores.fill(&self.gpu, Store::Guides, parity, bytemuck::cast_slice(guides));
+        self.stores.fill(&self.gpu, Store::Motions, parity, bytemuck::cast_slice(&motions));
+        if self.frame == 0 {
+            self.stores.fill(&self.gpu, Store::Luminances, parity, &[0; 8 * TEXELS]);
+        }
+        let record = self.record();
+        self.steps(&self.plan.before_light, &record);
+        let again = self.again();
+        let traced = |texel: usize| match again[texel] {
+            Some(before) if repeats => light(before, self.frame - 1),
+            _ => light(texel, self.frame),
+        };
+        let noisy: Vec<_> = (0..TEXELS).map(|texel| traced(texel).texel()).collect();
+        let luminances: Vec<_> = (0..TEXELS)
+            .map(|texel| (half(traced(texel).luminance()), half(again[texel].map_or(0.0, |_| 1.0))))
+            .map(|(bits, again)| LuminanceTexel { halves: [bits | bits << 16, bits | again << 16] })
+            .collect();
+        self.stores.fill(&self.gpu, Store::Noisy, parity, bytemuck::cast_slice(&noisy));
+        self.stores.fill(&self.gpu, Store::Luminances, parity, bytemuck::cast_slice(&luminances));
+        let record = self.record();
+        self.steps(&self.plan.after_light, &record);
+        let output = self.stores.read(&self.gpu, self.plan.output.unwrap(), parity);
+        self.frame += 1;
+        assert_valid();
+        bytemuck::pod_collect_to_vec(&output)
+    }
+}
+
+/// A wall that faces the eye.
+fn wall() -> Vec<GuideTexel> {
+    vec![GuideTexel { depth: 5.0, normal: 0, bits: 1 << 18 | 15 << 20 }; TEXELS]
+}
+
+/// A number of [0, 1) for a texel of a frame.
+fn noise(texel: usize, frame: u32) -> f32 {
+    let bits = xxhash_rust::xxh3::xxh3_64(&[texel as u64, u64::from(frame)].map(u64::to_le_bytes).concat());
+    (bits >> 40) as f32 / (1 << 24) as f32
+}
+
+const DENOISERS: [Denoiser; 2] = [Denoiser::Svgf, Denoiser::Asvgf];
+
+#[test]
+fn constant_light_stays_as_it_is() {
+    // Every third texel lies elsewhere and faces another way, every fifth shows nothing.
+    let guides: Vec<_> = (0..TEXELS)
+        .map(|texel| GuideTexel {
+            depth: if texel % 5 == 4 { 0.0 } else { 5.0 + (texel % 3) as f32 },
+            normal: (texel % 3) as u32 * 0x2000,
+            bits: (1 + (texel % 2) as u32) << 18 | (texel % 16) as u32 * (1 << 20),
+        })
+        .collect();
+    for denoiser in DENOISERS {
+        for constant in [[0.75, 0.5, 0.125], [4096.0, 1.0, 0.0], [6.103_515_6e-5; 3]] {
+            let mut subject = Subject::new(denoiser);
+            for frame in 0..6 {
+                let clean = subject.frame(&guides, true, |_, _| Light(constant));
+                for (texel, guide) in clean.iter().zip(&guides).filter(|(_, guide)| guide.depth > 0.0) {
+                    for channel in 0..3 {
+                        let found = Light::of(*texel, channel);
+                        assert_eq!(found, Light(constant), "{denoiser:?}, frame {frame}, {guide:?}");
+                    }
+                    // No sample differs from another.
+                    assert_eq!(texel.halves[1] >> 16, 0, "{denoiser:?}, frame {frame}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn noise_goes_and_its_mean_stays() {
+    for denoiser in DENOISERS {
+        let mut subject = Subject::new(denoiser);
+        let mut errors = Vec::new();
+        for frame in 0..24 {
+            // Few bright samples, as paths have them; the mean is 1.
+            let light = |texel, frame| Light([if noise(texel, frame) < 0.25 { 4.0 } else { 0.0 }; 3]);
+            let clean = subject.frame(&wall(), true, light);
+            let direct: Vec<_> = clean.iter().map(|texel| f64::from(Light::of(*texel, 0).0[0])).collect();
+            let mean = direct.iter().sum::<f64>() / TEXELS as f64;
+            let error =
+                (direct.iter().map(|value| (value - 1.0).powi(2)).sum::<f64>() / TEXELS as f64).sqrt();
+            errors.push(error);
+            // What is rarely bright is taken for noise where one frame alone says what it is.
+            assert!((mean - 1.0).abs() < 0.25, "{denoiser:?}, frame {frame}: {mean}");
+            if frame == 23 {
+                assert!((mean - 1.0).abs() < 0.03, "{denoiser:?}: {mean}");
+            }
+        }
+        println!("{denoiser:?}: {errors:.3?}");
+        // Samples themselves are 1.73 off.
+        assert!(errors[0] < 0.5 && errors[23] < 0.1, "{denoiser:?}: {errors:?}");
+    }
+}
+
+#[test]
+fn light_that_changes_is_believed_at_once_by_gradients_alone() {
+    let after_change = |denoiser| {
+        let mut subject = Subject::new(denoiser);
+        let mut last = Vec::new();
+        for frame in 0..20 {
+            let bright = if frame < 18 { 1.0 } else { 0.125 };
+            last = subject.frame(&wall(), false, |_, _| Light([bright; 3]));
+        }
+        last.iter().map(|texel| f64::from(Light::of(*texel, 1).0[0])).sum::<f64>() / TEXELS as f64
+    };
+    let [svgf, asvgf] = DENOISERS.map(after_change);
+    assert!(svgf > 0.7, "{svgf}");
+    assert!((asvgf - 0.125).abs() < 0.01, "{asvgf}");
+}
+
+#[test]
+fn edges_between_surfaces_stay() {
+    for denoiser in DENOISERS {
+        let mut subject = Subject::new(denoiser);
+        let is_left = |texel: usize| texel as u32 % SIZE[0] < 18;
+        // Two walls, one behind the other.
+        let guides: Vec<_> = wall()
+            .into_iter()
+            .enumerate()
+            .map(|(texel, guide)| GuideTexel { depth: if is_left(texel) { 5.0 } else { 8.0 }, ..guide })
+            .collect();
+        for frame in 0..4 {
+            let light = |texel, frame| {
+                let mean = if is_left(texel) { 1.0 } else { 0.1 };
+                Light([mean * 2.0 * noise(texel, frame); 3])
+            };
+            let clean = subject.frame(&guides, true, light);
+            for (texel, found) in clean.iter().enumerate() {
+                let found = Light::of(*found, 2).0[0];
+                assert!(is_left(texel) == (found > 0.3), "{denoiser:?}, frame {frame}: {found}");
+            }
+        }
+    }
+}

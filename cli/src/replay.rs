@@ -16,11 +16,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::failure::{self, Failure};
 use crate::options::{
     Baked, DeviceArguments, Frames, ImageArguments, KeepArguments, LightArguments, Mode, ProfileArguments,
-    Size, Sky,
+    Size, Sky, View,
 };
 use crate::output;
 use report::Report;
 use session::Session;
+
+/// Samples a pixel and frame where none are asked for.
+const SAMPLES: u32 = 4;
 
 /// Arguments of `replay`.
 #[derive(Debug, Args)]
@@ -48,9 +51,9 @@ pub struct Arguments {
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
     pub seed: u32,
-    /// Samples a pixel and frame (pathtrace)
-    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
-    pub spp: u32,
+    /// Samples a pixel and frame; 4 unless it or a preset is said (pathtrace)
+    #[arg(long, value_name = "N", env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    spp: Option<u32>,
     /// Print figures: frame rate, passes, calls
     #[arg(long)]
     stats: bool,
@@ -113,8 +116,8 @@ impl Arguments {
     /// How to trace.
     fn pathtrace_options(&self) -> Result<PathtraceOptions, Failure> {
         let mut options = PathtraceOptions::default();
-        (options.spp, options.seed) = (self.spp, self.seed);
-        self.light.apply(&mut options);
+        (options.spp, options.seed) = (SAMPLES, self.seed);
+        self.light.apply(self.spp, &mut options);
         // Frames wait for it, so that a trace always gives the same pictures.
         options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
         options.replacing = self.baked.replacing();
@@ -133,36 +136,6 @@ impl Arguments {
     /// Whether anybody will read how long the passes took.
     fn wants_timing(&self) -> bool {
         self.stats || self.json.is_some()
-    }
-}
-
-/// What a path-traced picture can show instead of itself.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum View {
-    /// How light is found: a colour a kind of surface.
-    Kind,
-    /// Shading normals.
-    Normal,
-    /// Albedo.
-    Albedo,
-    /// Direct light.
-    Direct,
-    /// Indirect light.
-    Indirect,
-    /// The sky as rays see it, in all directions: longitude to the right, latitude of the world's y axis upward.
-    Sky,
-}
-
-impl View {
-    fn paint(self) -> Paint {
-        match self {
-            View::Kind => Paint::Kind,
-            View::Normal => Paint::Normal,
-            View::Albedo => Paint::Albedo,
-            View::Direct => Paint::Direct,
-            View::Indirect => Paint::Indirect,
-            View::Sky => Paint::Sky,
-        }
     }
 }
 

@@ -470,6 +470,32 @@ pub enum Paint {
     Sky = 6,
 }
 
+impl Paint {
+    /// All, in the order of their numbers.
+    pub const ALL: [Paint; 7] = [
+        Paint::Picture,
+        Paint::Kind,
+        Paint::Normal,
+        Paint::Albedo,
+        Paint::Direct,
+        Paint::Indirect,
+        Paint::Sky,
+    ];
+
+    /// As options write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Paint::Picture => "picture",
+            Paint::Kind => "kind",
+            Paint::Normal => "normal",
+            Paint::Albedo => "albedo",
+            Paint::Direct => "direct",
+            Paint::Indirect => "indirect",
+            Paint::Sky => "sky",
+        }
+    }
+}
+
 /// Bits of a hit's primitive below the member's number.
 pub const MEMBER_SHIFT: u32 = 20;
 

@@ -98,7 +98,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             }
             if let Some(folder) = &arguments.screenshots {
                 let absolute = std::path::absolute(folder);
-                command.env("AFTERGLOW_SCREENSHOTS", absolute.map_err(|error| Failure::output(folder, error))?);
+                command
+                    .env("AFTERGLOW_SCREENSHOTS", absolute.map_err(|error| Failure::output(folder, error))?);
             }
             if let Some(path) = &arguments.record {
                 command.env("AFTERGLOW_RECORD", recording(path)?);
@@ -207,6 +208,33 @@ mod tests {
         let path = recording(Path::new("no such file.trace")).unwrap();
         assert!(path.is_absolute() && path.ends_with("no such file.trace"));
         assert!(recording(&std::env::temp_dir()).is_err());
+    }
+
+    #[test]
+    fn what_is_said_is_handed_on_and_nothing_else() {
+        #[derive(clap::Parser)]
+        struct Line {
+            #[command(flatten)]
+            arguments: Arguments,
+        }
+        let said = |options: &[&str]| {
+            let line = ["run"].iter().chain(options).chain(&["--", "game"]);
+            said(&<Line as clap::Parser>::try_parse_from(line).unwrap().arguments)
+        };
+        let options = ["--preset", "high", "--limit", "inf", "--keys", "no", "--paint", "sky", "--no-filter"];
+        let values = said(&options);
+        for (name, value) in [
+            ("AFTERGLOW_PRESET", "high"),
+            ("AFTERGLOW_LIMIT", "inf"),
+            ("AFTERGLOW_KEYS", "0"),
+            ("AFTERGLOW_PAINT", "sky"),
+            ("AFTERGLOW_FILTER", "0"),
+        ] {
+            assert!(values.contains(&(name, value.to_owned())), "{name}: {values:?}");
+        }
+        // Beside what the environment of the test says.
+        let is_set = |name: &str| std::env::var_os(name).is_some();
+        assert!(said(&[]).iter().all(|(name, _)| is_set(name)));
     }
 
     #[test]

@@ -315,9 +315,11 @@ mod tests {
                       [keys]\nmode = 'Alt+F2'\nview = false";
         let variable = |name: &str| (name == "AFTERGLOW_MODE").then(|| "pathtrace".to_owned());
         let (options, problems) = with(config, &variable);
-        assert_eq!(problems, ["/config.toml: seed: \"x\" is not understood"].map(|end| {
-            problems.iter().find(|line| line.ends_with(end)).cloned().unwrap_or_default()
-        }));
+        assert_eq!(
+            problems,
+            ["/config.toml: seed: \"x\" is not understood"]
+                .map(|end| { problems.iter().find(|line| line.ends_with(end)).cloned().unwrap_or_default() })
+        );
         assert_eq!((options.mode, options.quality.samples), (Some(Mode::Pathtrace), Some(3)));
         assert_eq!(options.quality.preset, Some(Preset::Ultra));
         let keys = options.keys.unwrap();
@@ -335,7 +337,10 @@ mod tests {
         std::fs::write(&path, "name = 'A'\n[options]\nkeys = false\nspp = 5\nbounces = 3\nx = 1").unwrap();
         let variable = |name: &str| (name == "AFTERGLOW_PROFILE").then(|| path.display().to_string());
         let (options, problems) = with("spp = 2", &variable);
-        assert_eq!((options.keys, options.quality.samples, options.quality.bounces), (None, Some(2), Some(3)));
+        assert_eq!(
+            (options.keys, options.quality.samples, options.quality.bounces),
+            (None, Some(2), Some(3))
+        );
         assert_eq!(problems, ["profile A: there is no option \"x\""]);
     }
 

@@ -190,10 +190,10 @@ fn look(
 fn begin(servers: &mut Servers, display: &str, keys: &Keys) -> Option<Watch> {
     let known = servers.connection(display).map_err(Into::into).and_then(keymap);
     let keymap = known.map_err(|error| tracing::warn!("keys are not listened to: {error}")).ok()?;
-    for action in Action::ALL {
-        if keys.chord(action).is_some_and(|chord| !keymap.has(chord)) {
-            tracing::info!("the keyboard does not have the key for '{}'", action.name());
-        }
+    let is_absent = |action: &Action| keys.chord(*action).is_some_and(|chord| !keymap.has(chord));
+    let absent: Vec<_> = Action::ALL.into_iter().filter(is_absent).map(Action::name).collect();
+    if !absent.is_empty() {
+        tracing::warn!("the keyboard has no keys for: {}", absent.join(", "));
     }
     Some(Watch { keymap, states: KeyStates::default() })
 }

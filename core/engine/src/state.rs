@@ -124,7 +124,7 @@ impl State {
                 let begun = Instant::now();
                 if self.frame(group, &drawable, frame, end) && end != End::Continued {
                     self.present(&drawable);
-                    self.judge_speed(begun.elapsed());
+                    self.judge_speed(drawable.shared.id, begun.elapsed());
                     self.judge_backend(group);
                     self.note_pace(&drawable, handed_over);
                     self.live(&drawable);
@@ -177,7 +177,7 @@ impl State {
     }
 
     /// Gives tracing up where nobody insists on it and it takes too long.
-    fn judge_speed(&mut self, taken: Duration) {
+    fn judge_speed(&mut self, drawable: u64, taken: Duration) {
         if self.mode == Mode::Raster || self.options.mode.is_some() {
             return;
         }
@@ -188,10 +188,8 @@ impl State {
                 slowness::MOST.as_millis()
             );
             self.mode = Mode::Raster;
-            for renderer in self.renderers.values_mut() {
-                // Only ever fails where something is made.
-                let _ = renderer.set_mode(self.mode, &self.options.pathtrace);
-            }
+            self.live.version += 1;
+            self.say(drawable, "raster: path tracing is too slow here".into());
         }
     }
 

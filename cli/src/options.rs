@@ -134,9 +134,11 @@ impl Backend {
     }
 }
 
-/// What a path-traced picture can show instead of itself.
+/// What a path-traced picture can show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum View {
+    /// The picture itself.
+    Picture,
     /// How light is found: a colour a kind of surface.
     Kind,
     /// Shading normals.
@@ -155,6 +157,7 @@ impl View {
     /// As the renderer has it.
     pub fn paint(self) -> render::Paint {
         match self {
+            View::Picture => render::Paint::Picture,
             View::Kind => render::Paint::Kind,
             View::Normal => render::Paint::Normal,
             View::Albedo => render::Paint::Albedo,

@@ -315,11 +315,8 @@ mod tests {
                       [keys]\nmode = 'Alt+F2'\nview = false";
         let variable = |name: &str| (name == "AFTERGLOW_MODE").then(|| "pathtrace".to_owned());
         let (options, problems) = with(config, &variable);
-        assert_eq!(
-            problems,
-            ["/config.toml: seed: \"x\" is not understood"]
-                .map(|end| { problems.iter().find(|line| line.ends_with(end)).cloned().unwrap_or_default() })
-        );
+        assert_eq!(problems.len(), 1, "{problems:?}");
+        assert!(problems[0].ends_with("config.toml: seed: \"x\" is not understood"), "{problems:?}");
         assert_eq!((options.mode, options.quality.samples), (Some(Mode::Pathtrace), Some(3)));
         assert_eq!(options.quality.preset, Some(Preset::Ultra));
         let keys = options.keys.unwrap();

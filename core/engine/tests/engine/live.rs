@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use afterglow_engine::{EngineOptions, Keys, OptionsSource};
 use afterglow_gpu::Faults;
 use afterglow_render::{Mode, Paint};
+use x11rb::protocol::xproto::InputFocus;
 
 use crate::failures::undisturbed;
 use crate::program::{Program, SIDE, options};
@@ -103,6 +104,35 @@ fn keys_of_other_windows_mean_nothing() {
     server.focus(window);
     server.press(&[CONTROL, SHIFT, INSERT]);
     picture_in(folder.path(), || program.frame());
+}
+
+#[test]
+fn the_focus_may_be_around_the_window_or_within_it_or_follow_the_pointer() {
+    let Some(server) = Server::start() else { return };
+    let around = server.window(SIDE);
+    let window = server.window_within(around, 0, SIDE / 2);
+    let within = server.window_within(window, 0, 4);
+    server.point(20, 30);
+    for focus in [around, window, within, InputFocus::POINTER_ROOT.into()] {
+        let folder = tempfile::tempdir().unwrap();
+        server.focus(focus);
+        let options = with_keys(Mode::Raster, folder.path());
+        let mut program = Program::with(server.surface(window), options, None);
+        program.frames(5);
+        program.picture();
+        server.press(&[CONTROL, SHIFT, INSERT]);
+        picture_in(folder.path(), || program.frame());
+    }
+    // Elsewhere the keys are another's.
+    server.point(300, 200);
+    let folder = tempfile::tempdir().unwrap();
+    let mut program = Program::with(server.surface(window), with_keys(Mode::Raster, folder.path()), None);
+    program.frames(5);
+    program.picture();
+    server.press(&[CONTROL, SHIFT, INSERT]);
+    program.frames(5);
+    program.picture();
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 /// Options that a test sends.

@@ -47,11 +47,15 @@ impl Server {
 
     /// Likewise, so far from the screen's left edge.
     pub(crate) fn window_at(&self, x: i16, side: u32) -> u32 {
+        self.window_within(self.root(), x, side)
+    }
+
+    /// Likewise, within another window.
+    pub(crate) fn window_within(&self, around: u32, x: i16, side: u32) -> u32 {
         let (window, side) = (self.connection.generate_id().unwrap(), side as u16);
-        let root = self.connection.setup().roots[0].root;
         let class = WindowClass::INPUT_OUTPUT;
         let values = CreateWindowAux::new();
-        self.connection.create_window(24, window, root, x, 8, side, side, 0, class, 0, &values).unwrap();
+        self.connection.create_window(24, window, around, x, 8, side, side, 0, class, 0, &values).unwrap();
         self.connection.map_window(window).unwrap().check().unwrap();
         window
     }
@@ -63,6 +67,16 @@ impl Server {
     pub(crate) fn resize(&self, window: u32, width: u32, height: u32) {
         let size = ConfigureWindowAux::new().width(width).height(height);
         self.connection.configure_window(window, &size).unwrap().check().unwrap();
+    }
+
+    fn root(&self) -> u32 {
+        self.connection.setup().roots[0].root
+    }
+
+    /// Moves the pointer to a place on the screen.
+    pub(crate) fn point(&self, x: i16, y: i16) {
+        let moved = self.connection.warp_pointer(x11rb::NONE, self.root(), 0, 0, 0, 0, x, y);
+        moved.unwrap().check().unwrap();
     }
 
     /// Gives a window, or nobody, the keyboard's focus.

@@ -102,7 +102,9 @@ impl Quality {
             *to = said.or(row.map(of_preset)).unwrap_or(*to);
         };
         set(&mut options.spp, self.samples, |row| row.samples);
-        set(&mut options.surfaces, self.bounces.map(|bounces| bounces + 1), |row| row.bounces + 1);
+        set(&mut options.surfaces, self.bounces.map(|bounces| bounces.saturating_add(1)), |row| {
+            row.bounces + 1
+        });
         set(&mut options.candidates, self.candidates, |row| row.candidates);
         set(&mut options.asked, self.asked, |row| row.asked);
         options.most_radiance = self.limit.or(row.map(|row| row.limit)).unwrap_or(options.most_radiance);

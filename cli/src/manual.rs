@@ -17,8 +17,12 @@ pub struct Arguments {
 }
 
 /// Places that the program reads or writes without being told.
-const FILES: [(&str, &str); 5] = [
+const FILES: [(&str, &str); 6] = [
     ("../lib/afterglow/libGL.so.1", "The library that games load, seen from the program's own folder."),
+    (
+        "$XDG_CONFIG_HOME/afterglow/config.toml",
+        "Options by name (mode, spp, hud, [keys] ...) for programs that are played. It is looked at again while they are.",
+    ),
     (
         "$XDG_CACHE_HOME/afterglow/pipelines",
         "Compiled shaders of each device. May be removed; the next start takes longer then.",
@@ -45,10 +49,14 @@ const EXIT_CODES: [(&str, &str); 5] = [
     ("4", "Input is unreadable or damaged; what was readable has been done."),
 ];
 
-const VARIABLES: [(&str, &str); 4] = [
+const VARIABLES: [(&str, &str); 5] = [
     (
         "AFTERGLOW_MODE, AFTERGLOW_DEVICE, ...",
         "Every option of a command has a variable, which its page names.",
+    ),
+    (
+        "AFTERGLOW_KEYS_MODE, _VIEW, _PRESET, _SCREENSHOT, _HUD",
+        "Keys that a player presses, such as Ctrl+Shift+Home; none for none.",
     ),
     (
         "AFTERGLOW_LOG",

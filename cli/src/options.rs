@@ -9,7 +9,9 @@ use afterglow_gpu::GpuOptions;
 use afterglow_render as render;
 use afterglow_render::Paint;
 use afterglow_scene::{Profile, ProfileChoice, ProfileError, ProgramCache, Replacing};
+use afterglow_settings::{Preset, Quality};
 use afterglow_trace::TraceReader;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use crate::failure::Failure;
@@ -165,43 +167,57 @@ pub enum LightChoice {
     Uniform,
 }
 
+impl LightChoice {
+    /// As the renderer has it.
+    fn of_renderer(self) -> render::LightChoice {
+        match self {
+            LightChoice::Resampled => render::LightChoice::Resampled,
+            LightChoice::Uniform => render::LightChoice::Uniform,
+        }
+    }
+
+    /// As AFTERGLOW_LIGHTS has it.
+    fn name(self) -> &'static str {
+        match self {
+            LightChoice::Resampled => "resampled",
+            LightChoice::Uniform => "uniform",
+        }
+    }
+}
+
 /// How light is found.
 #[derive(Debug, Args)]
 pub struct LightArguments {
-    /// What traces rays
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "auto", env = "AFTERGLOW_BACKEND")]
-    pub backend: Backend,
-    /// Bounces of light between surfaces (pathtrace)
-    #[arg(long, value_name = "N", default_value_t = 1, env = "AFTERGLOW_BOUNCES", value_parser = clap::value_parser!(u32).range(0..=63))]
-    pub bounces: u32,
-    /// How one of many lights is chosen
-    #[arg(
-        long,
-        value_enum,
-        value_name = "HOW",
-        default_value = "resampled",
-        env = "AFTERGLOW_LIGHTS",
-        hide_short_help = true
-    )]
-    pub lights: LightChoice,
-    /// Candidates of which one light is kept
-    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_CANDIDATES", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=8))]
-    pub candidates: u32,
-    /// Lights that a sample asks at the surface that is seen (pathtrace)
-    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_ASKED", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=4))]
-    pub asked: u32,
+    /// A set of samples, bounces, candidates and limit by one word; what is said besides counts more
+    #[arg(long, value_name = "PRESET", env = "AFTERGLOW_PRESET", value_parser = preset())]
+    pub preset: Option<Preset>,
+    /// What traces rays: `auto` unless it is said
+    #[arg(long, value_enum, value_name = "WHAT", env = "AFTERGLOW_BACKEND")]
+    pub backend: Option<Backend>,
+    /// Bounces of light between surfaces; 1 unless it or a preset is said (pathtrace)
+    #[arg(long, value_name = "N", env = "AFTERGLOW_BOUNCES", value_parser = clap::value_parser!(u32).range(0..=63))]
+    pub bounces: Option<u32>,
+    /// How one of many lights is chosen; `resampled` unless it is said
+    #[arg(long, value_enum, value_name = "HOW", env = "AFTERGLOW_LIGHTS", hide_short_help = true)]
+    pub lights: Option<LightChoice>,
+    /// Candidates of which one light is kept; 4 unless it or a preset is said
+    #[arg(long, value_name = "N", env = "AFTERGLOW_CANDIDATES", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=8))]
+    pub candidates: Option<u32>,
+    /// Lights that a sample asks at the surface that is seen; 4 unless it or a preset is said (pathtrace)
+    #[arg(long, value_name = "N", env = "AFTERGLOW_ASKED", hide_short_help = true, value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub asked: Option<u32>,
     /// Of many lights keep the choice of each pixel from frame to frame, and lend it to its neighbours (pathtrace)
-    #[arg(long, hide_short_help = true)]
+    #[arg(long, env = "AFTERGLOW_REUSE", hide_short_help = true, value_parser = clap::builder::BoolishValueParser::new())]
     pub reuse: bool,
-    /// Radiance that a sample brings at most; `inf` for no limit (pathtrace)
-    #[arg(long, value_name = "RADIANCE", default_value_t = 16.0, env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
-    pub limit: f32,
-    /// What makes a picture of few samples (pathtrace)
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "asvgf", env = "AFTERGLOW_DENOISER")]
-    pub denoiser: Denoiser,
-    /// Texels of light along a side, for each pixel: 0.5 to 1 (pathtrace)
-    #[arg(long, value_name = "SHARE", default_value_t = 1.0, env = "AFTERGLOW_LIGHT_SCALE", value_parser = light_scale)]
-    pub light_scale: f32,
+    /// Radiance that a sample brings at most, `inf` for no limit; 16 unless it or a preset is said (pathtrace)
+    #[arg(long, value_name = "RADIANCE", env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
+    pub limit: Option<f32>,
+    /// What makes a picture of few samples; `asvgf` unless it is said (pathtrace)
+    #[arg(long, value_enum, value_name = "WHAT", env = "AFTERGLOW_DENOISER")]
+    pub denoiser: Option<Denoiser>,
+    /// Texels of light along a side for each pixel, 0.5 to 1; 1 unless it or a preset is said (pathtrace)
+    #[arg(long, value_name = "SHARE", env = "AFTERGLOW_LIGHT_SCALE", value_parser = light_scale)]
+    pub light_scale: Option<f32>,
     /// Leave the edges of triangles as they are (pathtrace)
     #[arg(long)]
     pub no_antialiasing: bool,
@@ -235,6 +251,8 @@ impl Denoiser {
 /// What a path-traced picture can show instead of itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum View {
+    /// The picture itself
+    Picture,
     /// How light is found: a colour a kind of surface
     Kind,
     /// Shading normals
@@ -265,6 +283,7 @@ impl View {
     /// As the renderer has it.
     pub fn paint(self) -> Paint {
         match self {
+            View::Picture => Paint::Picture,
             View::Kind => Paint::Kind,
             View::Normal => Paint::Normal,
             View::Albedo => Paint::Albedo,
@@ -282,22 +301,50 @@ impl View {
 }
 
 impl LightArguments {
-    /// Tells a renderer.
-    pub fn apply(&self, options: &mut render::PathtraceOptions) {
-        options.backend = self.backend.fixed();
-        options.surfaces = self.bounces + 1;
-        options.light_choice = match self.lights {
-            LightChoice::Resampled => render::LightChoice::Resampled,
-            LightChoice::Uniform => render::LightChoice::Uniform,
+    /// Tells a renderer, with so many samples a pixel and frame if they are said. What is not said stays as it is.
+    pub fn apply(&self, samples: Option<u32>, options: &mut render::PathtraceOptions) {
+        options.backend = self.backend.unwrap_or(Backend::Auto).fixed();
+        let quality = Quality {
+            preset: self.preset,
+            samples,
+            bounces: self.bounces,
+            candidates: self.candidates,
+            asked: self.asked,
+            limit: self.limit,
+            lights: self.lights.map(LightChoice::of_renderer),
+            reuse: self.reuse.then_some(true),
+            denoiser: self.denoiser.map(Denoiser::method),
+            light_scale: self.light_scale,
+            antialiasing: self.no_antialiasing.then_some(false),
         };
-        (options.candidates, options.asked) = (self.candidates, self.asked);
-        options.keeps_lights = self.reuse && self.lights == LightChoice::Resampled;
-        options.most_radiance = self.limit;
-        options.denoiser = self.denoiser.method();
-        options.light_scale = self.light_scale;
-        options.smooth_edges = !self.no_antialiasing;
+        quality.apply(options);
         options.paint = self.view.map_or(Paint::Picture, View::paint);
     }
+
+    /// The library's variables for what is said.
+    pub fn variables(&self) -> Vec<(&'static str, String)> {
+        let number = |number: Option<u32>| number.map(|number| number.to_string());
+        let said = [
+            ("AFTERGLOW_PRESET", self.preset.map(|preset| preset.name().to_owned())),
+            ("AFTERGLOW_BACKEND", self.backend.map(|backend| backend.name().to_owned())),
+            ("AFTERGLOW_BOUNCES", number(self.bounces)),
+            ("AFTERGLOW_LIGHTS", self.lights.map(|lights| lights.name().to_owned())),
+            ("AFTERGLOW_CANDIDATES", number(self.candidates)),
+            ("AFTERGLOW_ASKED", number(self.asked)),
+            ("AFTERGLOW_REUSE", self.reuse.then(|| "1".to_owned())),
+            ("AFTERGLOW_LIMIT", self.limit.map(|limit| limit.to_string())),
+            ("AFTERGLOW_DENOISER", self.denoiser.map(|denoiser| denoiser.method().name().to_owned())),
+            ("AFTERGLOW_LIGHT_SCALE", self.light_scale.map(|scale| scale.to_string())),
+            ("AFTERGLOW_ANTIALIASING", self.no_antialiasing.then(|| "0".to_owned())),
+            ("AFTERGLOW_VIEW", self.view.map(|view| view.paint().name().to_owned())),
+        ];
+        said.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
+    }
+}
+
+/// Presets by name.
+fn preset() -> impl TypedValueParser<Value = Preset> {
+    PossibleValuesParser::new(Preset::NAMES).try_map(|name| name.parse::<Preset>())
 }
 
 fn light_scale(text: &str) -> Result<f32, String> {

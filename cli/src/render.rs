@@ -36,7 +36,7 @@ pub struct Arguments {
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
     seed: u32,
-    /// Samples a pixel and frame; the default is 4, and in reference mode 64
+    /// Samples a pixel and frame; 4 unless it or a preset is said, and in reference mode 64
     #[arg(long, value_name = "N", env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
     spp: Option<u32>,
     /// Render for so long: in reference mode each frame, unless it has its samples earlier, else successive frames of a still

@@ -22,6 +22,9 @@ use crate::output;
 use report::Report;
 use session::Session;
 
+/// Samples a pixel and frame where none are asked for.
+const SAMPLES: u32 = 4;
+
 /// Arguments of `replay`.
 #[derive(Debug, Args)]
 pub struct Arguments {
@@ -48,9 +51,9 @@ pub struct Arguments {
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
     pub seed: u32,
-    /// Samples a pixel and frame (pathtrace)
-    #[arg(long, value_name = "N", default_value_t = 4, env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
-    pub spp: u32,
+    /// Samples a pixel and frame; 4 unless it or a preset is said (pathtrace)
+    #[arg(long, value_name = "N", env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    spp: Option<u32>,
     /// Print figures: frame rate, passes, calls
     #[arg(long)]
     stats: bool,
@@ -110,8 +113,8 @@ impl Arguments {
     /// How to trace.
     fn pathtrace_options(&self) -> Result<PathtraceOptions, Failure> {
         let mut options = PathtraceOptions::default();
-        (options.spp, options.seed) = (self.spp, self.seed);
-        self.light.apply(&mut options);
+        (options.spp, options.seed) = (SAMPLES, self.seed);
+        self.light.apply(self.spp, &mut options);
         // Frames wait for it, so that a trace always gives the same pictures.
         options.relighting = if self.no_relight { Relighting::Off } else { Relighting::AtOnce };
         options.replacing = self.baked.replacing();

@@ -13,7 +13,7 @@ use clap::Args;
 use crate::failure::Failure;
 use crate::libdir;
 use crate::options::{
-    Backend, Baked, DeviceArguments, ImageArguments, KeepArguments, Mode, ProfileArguments, Sky,
+    Baked, DeviceArguments, ImageArguments, KeepArguments, LightArguments, Mode, ProfileArguments, Sky, View,
 };
 
 /// Arguments of `run`.
@@ -22,24 +22,26 @@ pub struct Arguments {
     /// How frames become pictures. Unless it is said: by rays, and as OpenGL defines where rays turn out too slow to play
     #[arg(long, value_enum, env = "AFTERGLOW_MODE")]
     mode: Option<Mode>,
-    /// Samples a pixel and frame (pathtrace)
-    #[arg(long, value_name = "N", default_value_t = 1, env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
-    spp: u32,
-    /// What traces rays
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "auto", env = "AFTERGLOW_BACKEND")]
-    backend: Backend,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N", default_value_t = 0, env = "AFTERGLOW_SEED")]
-    seed: u32,
-    /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none (pathtrace)
-    #[arg(long, value_name = "MIB", default_value_t = 256, env = "AFTERGLOW_MEMORY")]
-    memory: u32,
-    /// What becomes of light that is baked into the world, where its sources are found
-    #[arg(long, value_enum, value_name = "HOW", default_value = "auto", env = "AFTERGLOW_BAKED")]
-    baked: Baked,
-    /// What rays see of the sky that the program draws
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "cube", env = "AFTERGLOW_SKY")]
-    sky: Sky,
+    /// Samples a pixel and frame; 1 unless it or a preset is said (pathtrace)
+    #[arg(long, value_name = "N", env = "AFTERGLOW_SPP", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    spp: Option<u32>,
+    #[command(flatten)]
+    light: LightArguments,
+    /// Seed of the random numbers; 0 unless it is said
+    #[arg(long, value_name = "N", env = "AFTERGLOW_SEED")]
+    seed: Option<u32>,
+    /// Remember so many MiB of the world that is not drawn, for rays to meet; 0 for none, and 256 unless it is said (pathtrace)
+    #[arg(long, value_name = "MIB", env = "AFTERGLOW_MEMORY")]
+    memory: Option<u32>,
+    /// What becomes of light that is baked into the world, where its sources are found; `auto` unless it is said
+    #[arg(long, value_enum, value_name = "HOW", env = "AFTERGLOW_BAKED")]
+    baked: Option<Baked>,
+    /// What rays see of the sky that the program draws; `cube` unless it is said
+    #[arg(long, value_enum, value_name = "WHAT", env = "AFTERGLOW_SKY")]
+    sky: Option<Sky>,
+    /// Show what the light is made of instead of the picture
+    #[arg(long, value_enum, value_name = "VIEW", env = "AFTERGLOW_PAINT")]
+    paint: Option<View>,
     #[command(flatten)]
     images: ImageArguments,
     #[command(flatten)]
@@ -48,7 +50,20 @@ pub struct Arguments {
     /// and so on
     #[arg(long, value_name = "FILE", env = "AFTERGLOW_RECORD")]
     record: Option<PathBuf>,
-    /// Show a line of figures in the window: frames a second, time of a frame, latency from buffer swap to picture
+    /// Configuration (TOML), or `none`; its keys are options' names, and what is said here or in the environment counts
+    /// more. The default is afterglow/config.toml in the user's folder of configurations, if it is there. What of it changes
+    /// while the program plays holds from then on
+    #[arg(long, value_name = "FILE", env = "AFTERGLOW_CONFIG")]
+    config: Option<PathBuf>,
+    /// Listen to keys while the program plays, without taking them from it: yes, as is the default, or no. Ctrl+Shift and
+    /// Home: next mode, PageDown: next view, PageUp: next preset, Insert: screenshot, End: figures. A configuration may name others
+    #[arg(long, value_name = "BOOL", env = "AFTERGLOW_KEYS", value_parser = clap::builder::BoolishValueParser::new())]
+    keys: Option<bool>,
+    /// Folder for screenshots; the default is $XDG_PICTURES_DIR, or $HOME
+    #[arg(long, value_name = "DIR", env = "AFTERGLOW_SCREENSHOTS")]
+    screenshots: Option<PathBuf>,
+    /// Show figures in the window: frames a second, time of a frame, latency from buffer swap to picture, and the passes that
+    /// take the device longest
     #[arg(long, env = "AFTERGLOW_HUD", value_parser = clap::builder::BoolishValueParser::new())]
     hud: bool,
     #[command(flatten)]
@@ -78,6 +93,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             if let Some(folder) = arguments.images.folder(None)? {
                 command.env("AFTERGLOW_REPLACE_IMAGES", folder);
             }
+            if let Some(path) = &arguments.config {
+                command.env("AFTERGLOW_CONFIG", config(path)?);
+            }
+            if let Some(folder) = &arguments.screenshots {
+                let absolute = std::path::absolute(folder);
+                command
+                    .env("AFTERGLOW_SCREENSHOTS", absolute.map_err(|error| Failure::output(folder, error))?);
+            }
             if let Some(path) = &arguments.record {
                 command.env("AFTERGLOW_RECORD", recording(path)?);
             }
@@ -104,28 +127,32 @@ fn set_up(command: &mut Command, arguments: &Arguments, folder: &Path) {
         .env("SDL_VIDEO_GL_DRIVER", &library)
         .env("SDL_OPENGL_LIBRARY", &library)
         .env("SDL_VIDEODRIVER", "x11")
-        .env("SDL_VIDEO_DRIVER", "x11")
-        .env("AFTERGLOW_SPP", arguments.spp.to_string())
-        .env("AFTERGLOW_BACKEND", arguments.backend.name())
-        .env("AFTERGLOW_SEED", arguments.seed.to_string())
-        .env("AFTERGLOW_MEMORY", arguments.memory.to_string())
-        .env("AFTERGLOW_BAKED", arguments.baked.name())
-        .env("AFTERGLOW_SKY", arguments.sky.name());
-    if let Some(mode) = arguments.mode {
-        command.env("AFTERGLOW_MODE", mode.name());
+        .env("SDL_VIDEO_DRIVER", "x11");
+    for (name, value) in said(arguments) {
+        command.env(name, value);
     }
-    if let Some(device) = &arguments.device.device {
-        command.env("AFTERGLOW_DEVICE", device);
-    }
-    if let Some(keep) = arguments.keep.keep {
-        command.env("AFTERGLOW_KEEP", if keep { "1" } else { "0" });
-    }
-    if arguments.hud {
-        command.env("AFTERGLOW_HUD", "1");
-    }
-    if arguments.device.validation {
-        command.env("AFTERGLOW_VALIDATION", "1");
-    }
+}
+
+/// The library's variables for options that are said: what is not is left to the configuration.
+fn said(arguments: &Arguments) -> Vec<(&'static str, String)> {
+    let number = |number: Option<u32>| number.map(|number| number.to_string());
+    let flag = |flag: Option<bool>| flag.map(|flag| if flag { "1" } else { "0" }.to_owned());
+    let options = [
+        ("AFTERGLOW_MODE", arguments.mode.map(|mode| mode.name().to_owned())),
+        ("AFTERGLOW_SPP", number(arguments.spp)),
+        ("AFTERGLOW_SEED", number(arguments.seed)),
+        ("AFTERGLOW_MEMORY", number(arguments.memory)),
+        ("AFTERGLOW_BAKED", arguments.baked.map(|baked| baked.name().to_owned())),
+        ("AFTERGLOW_SKY", arguments.sky.map(|sky| sky.name().to_owned())),
+        ("AFTERGLOW_PAINT", arguments.paint.map(|view| view.paint().name().to_owned())),
+        ("AFTERGLOW_DEVICE", arguments.device.device.clone()),
+        ("AFTERGLOW_KEEP", flag(arguments.keep.keep)),
+        ("AFTERGLOW_KEYS", flag(arguments.keys)),
+        ("AFTERGLOW_HUD", flag(arguments.hud.then_some(true))),
+        ("AFTERGLOW_VALIDATION", flag(arguments.device.validation.then_some(true))),
+    ];
+    let said = options.into_iter().filter_map(|(name, value)| Some((name, value?)));
+    said.chain(arguments.light.variables()).collect()
 }
 
 /// A choice as the library reads it, wherever the program goes.
@@ -137,6 +164,17 @@ fn profile(choice: &ProfileChoice) -> Result<OsString, Failure> {
             std::path::absolute(path).map(Into::into).map_err(|error| Failure::input(path, error))
         }
     }
+}
+
+/// A configuration as the library finds it, wherever the program goes. It may come later, but that is seldom meant.
+fn config(path: &Path) -> Result<PathBuf, Failure> {
+    if path == Path::new("none") {
+        return Ok(path.into());
+    }
+    if let Err(error) = fs::metadata(path) {
+        eprintln!("afterglow: {}: {error}; there is no configuration for now", path.display());
+    }
+    std::path::absolute(path).map_err(|error| Failure::input(path, error))
 }
 
 /// Where to record: a place that does not depend on the program's folder, without what was recorded before.
@@ -170,6 +208,33 @@ mod tests {
         let path = recording(Path::new("no such file.trace")).unwrap();
         assert!(path.is_absolute() && path.ends_with("no such file.trace"));
         assert!(recording(&std::env::temp_dir()).is_err());
+    }
+
+    #[test]
+    fn what_is_said_is_handed_on_and_nothing_else() {
+        #[derive(clap::Parser)]
+        struct Line {
+            #[command(flatten)]
+            arguments: Arguments,
+        }
+        let said = |options: &[&str]| {
+            let line = ["run"].iter().chain(options).chain(&["--", "game"]);
+            said(&<Line as clap::Parser>::try_parse_from(line).unwrap().arguments)
+        };
+        let options = ["--preset", "high", "--limit", "inf", "--keys", "no", "--paint", "sky", "--no-filter"];
+        let values = said(&options);
+        for (name, value) in [
+            ("AFTERGLOW_PRESET", "high"),
+            ("AFTERGLOW_LIMIT", "inf"),
+            ("AFTERGLOW_KEYS", "0"),
+            ("AFTERGLOW_PAINT", "sky"),
+            ("AFTERGLOW_FILTER", "0"),
+        ] {
+            assert!(values.contains(&(name, value.to_owned())), "{name}: {values:?}");
+        }
+        // Beside what the environment of the test says.
+        let is_set = |name: &str| std::env::var_os(name).is_some();
+        assert!(said(&[]).iter().all(|(name, _)| is_set(name)));
     }
 
     #[test]

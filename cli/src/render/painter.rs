@@ -183,9 +183,9 @@ fn traced(radiance: Radiance, mode: Mode) -> Result<Picture, afterglow_metrics::
 /// A scene file says all that is to be known: nothing is recovered or remembered.
 fn options(arguments: &Arguments) -> PathtraceOptions {
     let mut options = PathtraceOptions::default();
-    (options.spp, options.seed) = (arguments.spp.unwrap_or(SAMPLES), arguments.seed);
+    (options.spp, options.seed) = (SAMPLES, arguments.seed);
     options.keeps_radiance = true;
-    arguments.light.apply(&mut options);
+    arguments.light.apply(arguments.spp, &mut options);
     options.relighting = Relighting::Off;
     options.memory_bytes = 0;
     (options.target, options.surfaces) = match arguments.target {

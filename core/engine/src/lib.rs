@@ -6,6 +6,9 @@
 //!
 //! Where the device is lost, the thread opens it again and counts its number up; contexts see that when they begin a
 //! frame, and define anew what images they need (`state`).
+//!
+//! What a player may change while a program plays is changed between two frames (`state/live.rs`): by keys, which a
+//! thread looks at without taking them from the program (`keyboard`), and by an [`OptionsSource`].
 
 mod blanks;
 mod canvas;
@@ -14,11 +17,15 @@ mod drawable;
 mod failures;
 mod flushed;
 mod hud;
+mod keyboard;
+mod keys;
 mod life;
 mod message;
+mod options;
 mod pace;
 mod port;
 mod queue;
+mod screenshots;
 mod slowness;
 mod state;
 mod thread;
@@ -26,5 +33,7 @@ mod window;
 mod xcb;
 
 pub use drawable::{Drawable, Surface};
+pub use keys::{Action, Chord, Keys, UnknownKeys};
+pub use options::{EngineOptions, OptionsSource};
 pub use port::{Port, ShareGroup};
-pub use thread::{Engine, EngineError, EngineOptions};
+pub use thread::{Engine, EngineError};

@@ -28,6 +28,11 @@ impl Pace {
         Self { period, since: now, frames: 0, latency: Duration::ZERO, total: 0 }
     }
 
+    /// Pictures so far.
+    pub(crate) fn total(&self) -> u64 {
+        self.total
+    }
+
     /// A picture that the program handed over at `handed_over` was shown. Once a period, what there is to say.
     pub(crate) fn shown(&mut self, handed_over: Instant, now: Instant) -> Option<Figures> {
         self.frames += 1;

@@ -1,5 +1,7 @@
 //! What the render thread owns, and what it does with messages.
 
+mod live;
+
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,12 +17,14 @@ use parking_lot::Mutex;
 use crate::contest::{Contest, Turn};
 use crate::drawable::Drawable;
 use crate::failures::Failures;
+use crate::hud;
 use crate::life::Ending;
 use crate::message::Message;
+use crate::options::{EngineOptions, OptionsSource};
 use crate::slowness::{self, Slowness};
-use crate::thread::EngineOptions;
 use crate::window::{Stage, Wanted, Window};
 use crate::xcb::Servers;
+use live::Live;
 
 /// Empty frames that are kept to be filled again.
 const RECYCLED_FRAMES: usize = 4;
@@ -32,7 +36,9 @@ const OPENING_PAUSE: Duration = Duration::from_millis(500);
 pub(crate) struct State {
     /// None once it is given up: frames are dropped then.
     gpu: Option<Gpu>,
+    /// As keys and their source have changed them.
     options: EngineOptions,
+    live: Live,
     /// What frames become now.
     mode: Mode,
     slowness: Slowness,
@@ -56,11 +62,13 @@ impl State {
     pub(crate) fn new(
         gpu: Gpu,
         mut options: EngineOptions,
+        source: Option<Box<dyn OptionsSource>>,
         recycled: Arc<Mutex<Vec<Frame>>>,
         device_number: Arc<AtomicU64>,
     ) -> Self {
         options.pathtrace.backend = first_backend(&gpu, options.backend);
         Self {
+            live: Live::new(&options, source),
             contest: if options.backend.is_none() { Contest::on(&gpu) } else { None },
             gpu: Some(gpu),
             mode: options.mode.unwrap_or(Mode::Pathtrace),
@@ -102,12 +110,13 @@ impl State {
     fn handle(&mut self, message: Message) {
         match message {
             Message::Drawable { drawable, surface } => {
-                self.windows.insert(drawable, Window::new(surface));
+                self.windows.insert(drawable, Window::new(surface, self.live.version));
             }
             Message::DropDrawable { drawable } => {
                 if let Some(mut window) = self.windows.remove(&drawable) {
                     window.close(&mut self.servers);
                 }
+                self.live.forget(drawable);
                 self.renderers.values_mut().for_each(|renderer| renderer.forget(drawable));
             }
             Message::DropGroup { group } => self.drop_group(group),
@@ -115,9 +124,10 @@ impl State {
                 let begun = Instant::now();
                 if self.frame(group, &drawable, frame, end) && end != End::Continued {
                     self.present(&drawable);
-                    self.judge_speed(begun.elapsed());
+                    self.judge_speed(drawable.shared.id, begun.elapsed());
                     self.judge_backend(group);
                     self.note_pace(&drawable, handed_over);
+                    self.live(&drawable);
                 }
             }
             Message::Ask { group, drawable, frame, request, reply } => {
@@ -140,7 +150,9 @@ impl State {
         }
         let (empty, mode) = (renderer.recycle(), renderer.mode());
         // It may have found that it cannot trace.
-        self.mode = mode;
+        if mode != std::mem::replace(&mut self.mode, mode) {
+            self.say(drawable.shared.id, format!("{}: no more is possible here", hud::mode_name(mode)));
+        }
         let mut recycled = self.recycled.lock();
         if recycled.len() < RECYCLED_FRAMES {
             recycled.push(empty);
@@ -165,7 +177,7 @@ impl State {
     }
 
     /// Gives tracing up where nobody insists on it and it takes too long.
-    fn judge_speed(&mut self, taken: Duration) {
+    fn judge_speed(&mut self, drawable: u64, taken: Duration) {
         if self.mode == Mode::Raster || self.options.mode.is_some() {
             return;
         }
@@ -176,10 +188,8 @@ impl State {
                 slowness::MOST.as_millis()
             );
             self.mode = Mode::Raster;
-            for renderer in self.renderers.values_mut() {
-                // Only ever fails where something is made.
-                let _ = renderer.set_mode(self.mode, &self.options.pathtrace);
-            }
+            self.live.version += 1;
+            self.say(drawable, "raster: path tracing is too slow here".into());
         }
     }
 
@@ -203,7 +213,7 @@ impl State {
         }
         let former = std::mem::replace(&mut self.options.pathtrace.backend, backend);
         for renderer in self.renderers.values_mut() {
-            if let Err(error) = renderer.set_mode(self.mode, &self.options.pathtrace) {
+            if let Err(error) = renderer.set_mode(self.mode, &self.options.traced()) {
                 tracing::warn!("rays stay with the {former} backend: {error}");
                 self.contest = None;
                 self.options.pathtrace.backend = former;
@@ -213,9 +223,11 @@ impl State {
     }
 
     fn note_pace(&mut self, drawable: &Drawable, handed_over: Instant) {
+        let manner = self.manner();
         let Some(window) = self.windows.get_mut(&drawable.shared.id) else { return };
         let group = window.group.and_then(|group| self.renderers.get(&group));
-        window.note_pace(handed_over, drawable.size(), self.options.hud.then_some(group).flatten());
+        let figures = group.filter(|_| self.options.hud).map(|renderer| (manner, renderer.last_report()));
+        window.note_pace(handed_over, drawable.size(), figures);
     }
 
     /// The renderer of a share group, with a drawable selected.
@@ -231,6 +243,7 @@ impl State {
         if let Some(window) = self.windows.get_mut(&drawable) {
             window.group = Some(group);
         }
+        self.tell(group, drawable);
         self.renderers.get_mut(&group)
     }
 
@@ -280,10 +293,10 @@ impl State {
     fn make_renderer(&self, gpu: &Gpu) -> Result<Renderer, RenderError> {
         let mut options = RenderOptions::default();
         // A processor that plays the device would have to wait for each pass.
-        let is_wanted = self.options.hud || self.contest.is_some();
+        let is_wanted = self.options.hud || self.options.keys.is_some() || self.contest.is_some();
         options.timing = is_wanted && gpu.info().kind != DeviceKind::Cpu;
         let mut renderer = Renderer::new(gpu, &options)?;
-        match renderer.set_mode(self.mode, &self.options.pathtrace) {
+        match renderer.set_mode(self.mode, &self.options.traced()) {
             Err(error) if error.is_out_of_memory() => {
                 tracing::error!("path tracing is off, frames are rasterized: {error}");
             }

@@ -5,32 +5,17 @@ use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 use afterglow_gl::frame::Frame;
-use afterglow_gpu::{DeviceInfo, Gpu, GpuError, GpuOptions};
-use afterglow_render::{Backend, Mode, PathtraceOptions};
+use afterglow_gpu::{DeviceInfo, Gpu, GpuError};
 use parking_lot::Mutex;
 
 use crate::drawable::{Drawable, Surface};
 use crate::flushed::FlushedFrames;
 use crate::life::{Ending, Life};
 use crate::message::Message;
+use crate::options::{EngineOptions, OptionsSource};
 use crate::port::ShareGroup;
 use crate::state::State;
 use crate::xcb::Servers;
-
-/// How to render.
-#[derive(Debug, Clone, Default)]
-pub struct EngineOptions {
-    /// Which device.
-    pub gpu: GpuOptions,
-    /// What frames become. Unless it is said, paths are traced where that is fast enough to play.
-    pub mode: Option<Mode>,
-    /// How worlds are traced.
-    pub pathtrace: PathtraceOptions,
-    /// What traces rays. Unless it is said, the faster backend, which is found on the first world.
-    pub backend: Option<Backend>,
-    /// Show a line of figures in windows.
-    pub hud: bool,
-}
 
 /// Why there is no render thread.
 #[derive(Debug, thiserror::Error)]
@@ -73,6 +58,17 @@ impl Engine {
     /// # Errors
     /// If there is no device that serves, or no thread.
     pub fn start(options: EngineOptions) -> Result<Self, EngineError> {
+        Self::start_with(options, None)
+    }
+
+    /// Likewise, with options that may change while the thread runs.
+    ///
+    /// # Errors
+    /// As [`Engine::start`].
+    pub fn start_with(
+        options: EngineOptions,
+        source: Option<Box<dyn OptionsSource>>,
+    ) -> Result<Self, EngineError> {
         let (sender, receiver) = mpsc::channel();
         let (ready, is_ready) = mpsc::sync_channel(1);
         let recycled = Arc::<Mutex<Vec<Frame>>>::default();
@@ -82,7 +78,7 @@ impl Engine {
         std::thread::Builder::new().name("afterglow-render".into()).spawn(move || {
             let opened = Gpu::new(&options.gpu).map(|gpu| {
                 let info = gpu.info().clone();
-                (State::new(gpu, options, frames, number), info)
+                (State::new(gpu, options, source, frames, number), info)
             });
             let state = match opened {
                 Ok((state, info)) => {

@@ -3,12 +3,12 @@
 use std::time::{Duration, Instant};
 
 use afterglow_gpu::{Gpu, GpuError, Overlay, Presented, Swapchain};
-use afterglow_render::{Carried, Renderer};
+use afterglow_render::{Carried, FrameReport, Renderer};
 
 use crate::blanks::Blanks;
 use crate::canvas::Canvas;
 use crate::drawable::Surface;
-use crate::hud;
+use crate::hud::{self, Manner, Panel};
 use crate::pace::Pace;
 use crate::xcb::Servers;
 
@@ -16,7 +16,8 @@ use crate::xcb::Servers;
 const LOG_PERIOD: Duration = Duration::from_secs(5);
 /// How often those in a window change.
 const HUD_PERIOD: Duration = Duration::from_millis(500);
-
+/// How long a message stays.
+const NOTICE_PERIOD: Duration = Duration::from_secs(2);
 /// How long a window in which nothing could be shown is left alone.
 const PAUSE: Duration = Duration::from_secs(1);
 
@@ -27,6 +28,8 @@ pub(crate) struct Window {
     pub(crate) group: Option<u64>,
     /// What it shows, if that group is gone.
     pub(crate) left: Option<Carried>,
+    /// Of the options that it was told last.
+    pub(crate) version: u64,
     logged: Pace,
     hud: Hud,
     output: Option<Output>,
@@ -42,12 +45,30 @@ enum Output {
     Canvas(Canvas),
 }
 
-/// The line of figures in a window.
+/// The text in a window.
 struct Hud {
     pace: Pace,
-    line: Option<hud::Line>,
-    /// The line, on the device.
+    /// What is said for a while, and until when.
+    notice: Option<(String, Instant)>,
+    figures: Vec<String>,
+    panel: Option<Panel>,
+    /// The panel, on the device.
     overlay: Option<Overlay>,
+}
+
+impl Hud {
+    fn new(now: Instant) -> Self {
+        let pace = Pace::new(now, HUD_PERIOD);
+        Self { pace, notice: None, figures: Vec::new(), panel: None, overlay: None }
+    }
+
+    /// The message, and the figures below it, as pixels.
+    fn renew(&mut self) {
+        let notice = self.notice.iter().map(|(text, _)| text.clone());
+        let lines: Vec<_> = notice.chain(self.figures.iter().cloned()).collect();
+        self.panel = (!lines.is_empty()).then(|| Panel::new(&lines));
+        self.overlay = None;
+    }
 }
 
 /// What showing a picture takes.
@@ -78,14 +99,16 @@ impl Wanted {
 }
 
 impl Window {
-    pub(crate) fn new(surface: Surface) -> Self {
+    /// A window that nothing was drawn to, of this version of the options.
+    pub(crate) fn new(surface: Surface, version: u64) -> Self {
         let now = Instant::now();
         Self {
             surface,
             group: None,
             left: None,
+            version,
             logged: Pace::new(now, LOG_PERIOD),
-            hud: Hud { pace: Pace::new(now, HUD_PERIOD), line: None, overlay: None },
+            hud: Hud::new(now),
             output: None,
             blanks: Blanks::default(),
             failed_at: None,
@@ -110,9 +133,30 @@ impl Window {
         }
     }
 
-    /// Takes note that a picture was shown that the program handed over at `handed_over`. With a renderer, its figures
+    /// What it is to the window system.
+    pub(crate) fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Pictures shown so far.
+    pub(crate) fn pictures(&self) -> u64 {
+        self.logged.total()
+    }
+
+    /// Says something in the window for a while, from the next picture on.
+    pub(crate) fn say(&mut self, text: String) {
+        self.hud.notice = Some((text, Instant::now() + NOTICE_PERIOD));
+        self.hud.renew();
+    }
+
+    /// Takes note that a picture was shown that the program handed over at `handed_over`. Where figures are wanted, they
     /// are shown in the window from the next picture on.
-    pub(crate) fn note_pace(&mut self, handed_over: Instant, size: (u32, u32), renderer: Option<&Renderer>) {
+    pub(crate) fn note_pace(
+        &mut self,
+        handed_over: Instant,
+        size: (u32, u32),
+        wanted: Option<(Manner, &FrameReport)>,
+    ) {
         let now = Instant::now();
         if let Some(figures) = self.logged.shown(handed_over, now) {
             tracing::info!(
@@ -124,12 +168,19 @@ impl Window {
                 figures.latency
             );
         }
-        if let Some(renderer) = renderer
-            && let Some(figures) = self.hud.pace.shown(handed_over, now)
-        {
-            let line = hud::line(figures, renderer.mode(), size, renderer.last_report());
-            self.hud.line = Some(hud::Line::new(&line));
-            self.hud.overlay = None;
+        let hud = &mut self.hud;
+        let mut is_other = hud.notice.take_if(|(_, until)| *until <= now).is_some();
+        let figures = hud.pace.shown(handed_over, now);
+        match (wanted, figures) {
+            (Some((manner, report)), Some(figures)) => {
+                hud.figures = hud::lines(figures, manner, size, report);
+                is_other = true;
+            }
+            (Some(_), None) => {}
+            (None, _) => is_other |= !std::mem::take(&mut hud.figures).is_empty(),
+        }
+        if is_other {
+            hud.renew();
         }
     }
 
@@ -208,9 +259,9 @@ impl Window {
     ) -> Result<Option<(u32, u32)>, GpuError> {
         match &mut self.output {
             Some(Output::Swapchain(swapchain)) => {
-                if let (Some(line), None) = (&self.hud.line, &self.hud.overlay) {
+                if let (Some(panel), None) = (&self.hud.panel, &self.hud.overlay) {
                     // Without memory for it, the picture is shown all the same.
-                    self.hud.overlay = gpu.overlay(line.size, &line.greys).ok();
+                    self.hud.overlay = gpu.overlay(panel.size, &panel.greys).ok();
                 }
                 let presented = renderer.present(swapchain, self.hud.overlay.as_ref())?;
                 let [width, height] = swapchain.size();
@@ -223,8 +274,8 @@ impl Window {
                     Err(afterglow_render::RenderError::Gpu(error)) => return Err(error),
                     Err(error) => return Err(invalid("picture", error)),
                 };
-                if let Some(line) = &self.hud.line {
-                    line.lay_over(&mut picture, width as usize);
+                if let Some(panel) = &self.hud.panel {
+                    panel.lay_over(&mut picture, width as usize);
                 }
                 servers.put(canvas, width, picture).map(Some)
             }

@@ -562,6 +562,44 @@ pub enum Paint {
     Edges = 12,
 }
 
+impl Paint {
+    /// All, in the order of their numbers.
+    pub const ALL: [Paint; 13] = [
+        Paint::Picture,
+        Paint::Kind,
+        Paint::Normal,
+        Paint::Albedo,
+        Paint::Direct,
+        Paint::Indirect,
+        Paint::Sky,
+        Paint::Specular,
+        Paint::Motion,
+        Paint::Variance,
+        Paint::Gradient,
+        Paint::History,
+        Paint::Edges,
+    ];
+
+    /// As options write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Paint::Picture => "picture",
+            Paint::Kind => "kind",
+            Paint::Normal => "normal",
+            Paint::Albedo => "albedo",
+            Paint::Direct => "direct",
+            Paint::Indirect => "indirect",
+            Paint::Sky => "sky",
+            Paint::Specular => "specular",
+            Paint::Motion => "motion",
+            Paint::Variance => "variance",
+            Paint::Gradient => "gradient",
+            Paint::History => "history",
+            Paint::Edges => "edges",
+        }
+    }
+}
+
 /// Bits of a hit's primitive below the member's number.
 pub const MEMBER_SHIFT: u32 = 20;
 

@@ -9,7 +9,7 @@ use std::time::Duration;
 use afterglow_engine::Engine;
 
 use crate::boundary::guarded;
-use crate::options;
+use crate::options::{self, Options};
 
 /// How long the end of the process waits for the render thread.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -36,8 +36,8 @@ pub fn is_noop() -> bool {
 }
 
 fn start() -> Option<Engine> {
-    options::start_log();
-    match Engine::start(options::engine()) {
+    let options = Options::read();
+    match Engine::start_with(options.engine(), Some(Box::new(options))) {
         Ok(engine) => {
             tracing::info!("drawing with {}", engine.device().name);
             stop_at_exit();

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a failure is what a test reports")]
 
 mod failures;
+#[cfg(target_os = "linux")]
+mod live;
 mod program;
 #[cfg(target_os = "linux")]
 mod server;

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use afterglow_api::constants::*;
-use afterglow_engine::{Drawable, Engine, EngineOptions, Port, ShareGroup, Surface};
+use afterglow_engine::{Drawable, Engine, EngineOptions, OptionsSource, Port, ShareGroup, Surface};
 use afterglow_gl::texture::{ImageDefinition, SubImage};
 use afterglow_gl::{Context, Params, Pointer};
 use afterglow_gpu::{Faults, GpuOptions};
@@ -14,6 +14,14 @@ pub(crate) const SIDE: u32 = 64;
 /// Names of what the program makes.
 const TEXTURE: u32 = 7;
 const LIST: u32 = 3;
+
+/// What pictures depend on, and no frame on the one before.
+pub(crate) fn options(mode: Mode, faults: &Faults) -> EngineOptions {
+    let mut options = EngineOptions { mode: Some(mode), ..EngineOptions::default() };
+    options.gpu = GpuOptions { faults: faults.clone(), ..GpuOptions::for_tests() };
+    options.pathtrace.accumulate = false;
+    options
+}
 
 /// A program that draws to a drawable of its own.
 pub(crate) struct Program {
@@ -37,10 +45,15 @@ impl Program {
     }
 
     pub(crate) fn on(surface: Surface, mode: Mode, faults: &Faults, hud: bool) -> Self {
-        let mut options = EngineOptions { mode: Some(mode), hud, ..EngineOptions::default() };
-        options.gpu = GpuOptions { faults: faults.clone(), ..GpuOptions::for_tests() };
-        options.pathtrace.accumulate = false;
-        let engine = Engine::start(options).unwrap();
+        Self::with(surface, EngineOptions { hud, ..options(mode, faults) }, None)
+    }
+
+    pub(crate) fn with(
+        surface: Surface,
+        options: EngineOptions,
+        source: Option<Box<dyn OptionsSource>>,
+    ) -> Self {
+        let engine = Engine::start_with(options, source).unwrap();
         let group = engine.share_group();
         let port = Port::new(&group);
         let drawable = engine.drawable(surface, (SIDE, SIDE));

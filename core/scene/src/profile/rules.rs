@@ -41,6 +41,8 @@ pub struct Profile {
     pub(super) units_per_metre: Option<f32>,
     /// Folder of images that take the place of the program's textures; in a file's text relative to the file.
     pub images: Option<PathBuf>,
+    /// Options of the library by name, for when the program is played. They are not looked at here.
+    pub options: toml::Table,
     pub(super) camera: Vec<CameraRule>,
     pub(super) class: Vec<ClassRule>,
     pub(super) lights: LightSettings,

@@ -216,7 +216,8 @@ impl LightArguments {
     }
 }
 
-fn limit(text: &str) -> Result<f32, String> {
+/// A radiance above 0, or `inf`.
+pub fn limit(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(limit) if limit > 0.0 => Ok(limit),
         _ => Err(format!("'{text}' is no radiance above 0")),

@@ -42,10 +42,10 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE", requires = "scene")]
     references: Option<PathBuf>,
     /// Samples a pixel of references that are made
-    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(2..=65536))]
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(2..=65536))]
     reference_spp: u32,
     /// Of frames in which something moves, every so many get a reference that is made
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1000))]
     reference_every: u32,
     /// Folder where references that were made are kept; the default is in the cache folder
     #[arg(long, value_name = "DIR")]

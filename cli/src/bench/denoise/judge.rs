@@ -51,6 +51,8 @@ pub struct FrameFigures {
     /// Of the whole picture.
     #[serde(flatten)]
     pub errors: Errors,
+    /// Of what shows no light itself: in pathtrace those in view have a radiance of 1 at most.
+    pub lit: PartErrors,
     /// Of what was not in view in one of the last 8 frames.
     pub uncovered: PartErrors,
     /// Of what a moving object covered in one of the last 8 frames while the camera stood as now.
@@ -96,8 +98,10 @@ pub struct Summary {
     pub moving_flip: Option<f64>,
     /// Mean FLIP from a step of the light on.
     pub lighting_flip: Option<f64>,
-    /// Mean relMSE of all frames.
-    pub relmse: Option<f64>,
+    /// Mean relMSE of all frames, without pixels that show lights.
+    pub lit_relmse: Option<f64>,
+    /// Mean of their RMSE over their mean.
+    pub lit_rmse_over_mean: Option<f64>,
     /// Mean relMSE of uncovered pixels, where there are some.
     pub uncovered_relmse: Option<f64>,
     /// Mean of their RMSE over their mean.
@@ -178,12 +182,15 @@ impl<'a> Judge<'a> {
         else {
             return Ok(None);
         };
+        let lights = pixels.of_lights.iter().zip(&pixels.of_emitters);
+        let lit: Vec<bool> = lights.map(|(light, emitter)| !light && !emitter).collect();
         let of_part = |chosen: &[bool]| PartErrors::of(shown, &reference.mean, chosen);
         Ok(Some(FrameFigures {
             frame,
             reference: number,
             kind: self.kinds[offset],
             errors: Errors::of(shown, reference)?,
+            lit: of_part(&lit),
             uncovered: of_part(&pixels.uncovered),
             left_by_objects: of_part(&pixels.left_by_objects),
             left_out: pixels.of_lights.iter().filter(|is| **is).count(),
@@ -251,7 +258,8 @@ impl Summary {
             moving_ssim: mean_where(Kind::Moving, ssim),
             moving_flip: mean_where(Kind::Moving, flip),
             lighting_flip: mean_where(Kind::Lighting, flip),
-            relmse: mean_known(judged().map(|frame| frame.errors.relmse)),
+            lit_relmse: mean_known(judged().map(|frame| frame.lit.relmse)),
+            lit_rmse_over_mean: mean_known(judged().map(|frame| frame.lit.rmse_over_mean)),
             uncovered_relmse: mean_known(judged().map(|frame| frame.uncovered.relmse)),
             uncovered_rmse_over_mean: mean_known(judged().map(|frame| frame.uncovered.rmse_over_mean)),
             worst_ssim: worst.map(|(ssim, _)| ssim),

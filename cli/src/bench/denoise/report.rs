@@ -6,6 +6,7 @@ use afterglow_gpu::DeviceInfo;
 use serde::Serialize;
 
 use super::Arguments;
+use super::figures::PartErrors;
 use super::judge::{Figures, FrameFigures, LightStep};
 
 /// Everything that `bench denoise --json` writes.
@@ -54,7 +55,7 @@ impl Report {
     pub fn write_head(&self, out: &mut impl Write) -> io::Result<()> {
         writeln!(
             out,
-            "{} samples a pixel, {} bounces, on {}; HDR-FLIP; errors of uncovered pixels are RMSE over mean, and relMSE",
+            "{} samples a pixel, {} bounces, on {}; HDR-FLIP; errors are RMSE over mean, without pixels that show lights",
             self.spp, self.bounces, self.device.name
         )
     }
@@ -67,11 +68,26 @@ impl SequenceReport {
         writeln!(out, "\n{}, {width}x{height}, frames {first}..{end}", self.name)?;
         writeln!(
             out,
-            "              still          moving         light    all              uncovered          worst        still"
+            "{:12} {:^15} {:^15} {:>7} {:^18} {:^18} {:^12}",
+            "", "still", "moving", "light", "all", "uncovered", "worst"
         )?;
         writeln!(
             out,
-            "denoiser      SSIM   FLIP    SSIM   FLIP    FLIP     relMSE    error   relMSE     SSIM   frame flicker  lag"
+            "{:12} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>9} {:>8} {:>9} {:>7} {:>5} {:>8} {:>5}",
+            "denoiser",
+            "SSIM",
+            "FLIP",
+            "SSIM",
+            "FLIP",
+            "FLIP",
+            "error",
+            "relMSE",
+            "error",
+            "relMSE",
+            "SSIM",
+            "frame",
+            "flicker",
+            "lag"
         )?;
         for figures in &self.denoisers {
             figures.write(out)?;
@@ -85,14 +101,15 @@ impl Figures {
         let summary = &self.summary;
         writeln!(
             out,
-            "{:<12}{} {} {} {} {}{} {}{}  {} {:>5} {} {:>4}",
+            "{:<12} {} {} {} {} {} {} {} {} {} {} {:>5} {} {:>5}",
             self.denoiser,
             number(summary.still_ssim, 4),
             number(summary.still_flip, 4),
             number(summary.moving_ssim, 4),
             number(summary.moving_flip, 4),
             number(summary.lighting_flip, 4),
-            number(summary.relmse, 6),
+            share(summary.lit_rmse_over_mean),
+            number(summary.lit_relmse, 6),
             share(summary.uncovered_rmse_over_mean),
             number(summary.uncovered_relmse, 6),
             number(summary.worst_ssim, 4),
@@ -111,7 +128,19 @@ impl Figures {
         writeln!(out, "\n{}", self.denoiser)?;
         writeln!(
             out,
-            "frame  like      RMSE  RMSE/mean     relMSE    SSIM    FLIP   mean ratio  uncovered: pixels, error, relMSE"
+            "{:>5} {:>5} {:>8} {:>9} {:>8} {:>9} {:>7} {:>7} {:>7} {:>6} {:>8} {:>9}",
+            "frame",
+            "like",
+            "RMSE",
+            "RMSE/mean",
+            "lit",
+            "relMSE",
+            "SSIM",
+            "FLIP",
+            "light",
+            "new",
+            "error",
+            "relMSE"
         )?;
         for frame in &self.frames {
             frame.write(out)?;
@@ -129,24 +158,22 @@ impl FrameFigures {
         let errors = &self.errors;
         write!(
             out,
-            "{:>5} {:>5} {} {}  {} {} {:>7.4}    {} ",
+            "{:>5} {:>5} {} {} {} {} {} {:>7.4} {}",
             self.frame,
             self.reference,
             number(errors.rmse, 5),
             share(errors.rmse_over_mean),
+            share(self.lit.rmse_over_mean),
             number(errors.relmse, 6),
             number(errors.ssim, 4),
             errors.flip,
             number(errors.luminance_ratio, 4)
         )?;
-        match self.uncovered.pixels {
-            0 => writeln!(out),
-            pixels => writeln!(
-                out,
-                "   {pixels:>8} {} {}",
-                share(self.uncovered.rmse_over_mean),
-                number(self.uncovered.relmse, 6)
-            ),
+        match self.uncovered {
+            PartErrors { pixels: 0, .. } => writeln!(out),
+            PartErrors { pixels, rmse_over_mean, relmse } => {
+                writeln!(out, " {pixels:>6} {} {}", share(rmse_over_mean), number(relmse, 6))
+            }
         }
     }
 }
@@ -168,10 +195,11 @@ impl LightStep {
 
 /// A number with so many digits, or that there is none.
 fn number(value: Option<f64>, digits: usize) -> String {
-    let width = digits + 4;
+    let width = digits + 3;
     value.map_or_else(|| format!("{:>width$}", "-"), |value| format!("{value:>width$.digits$}"))
 }
 
+/// In percent, 8 characters wide.
 fn share(value: Option<f64>) -> String {
-    value.map_or_else(|| "       -".into(), |value| format!("{:>6.2} %", 100.0 * value))
+    value.map_or_else(|| format!("{:>8}", "-"), |value| format!("{:>6.2} %", 100.0 * value))
 }

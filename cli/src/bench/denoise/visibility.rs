@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use afterglow_bvh::{
-    Blas, BlasInput, BuildError, IDENTITY, Instance, Quality, Query, Ray, Scene as Rays, Tlas,
+    Blas, BlasInput, BuildError, Hit, IDENTITY, Instance, Quality, Query, Ray, Scene as Rays, Tlas,
     build_blas_with, build_tlas, trace,
 };
 use afterglow_scene_file::{SceneFile, SequenceFrame};
@@ -19,7 +19,7 @@ const NEAR_SHARE: f32 = 1e-3;
 const ADDRESS: u64 = 16;
 
 /// Which pixels of a frame need to be looked at by themselves, a pixel each.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Pixels {
     /// Shows a point that was hidden, or outside of the picture, in one of the last frames.
     pub uncovered: Vec<bool>,
@@ -27,6 +27,8 @@ pub struct Pixels {
     pub left_by_objects: Vec<bool>,
     /// A spherical light is seen, or is next to it. Pathtrace does not show those.
     pub of_lights: Vec<bool>,
+    /// The same of surfaces that shine: in pathtrace those in view have a radiance of 1 at most.
+    pub of_emitters: Vec<bool>,
 }
 
 /// Looks at frames.
@@ -63,6 +65,7 @@ struct Seen {
 #[derive(Clone, Copy)]
 struct Point {
     object: Option<usize>,
+    shines: bool,
     /// In the still scene, before objects move.
     position: DVec3,
 }
@@ -101,15 +104,14 @@ impl<'a> Visibility<'a> {
                 self.frames[frame] = Some(self.look(frame)?);
             }
         }
-        let count = self.size[0] * self.size[1];
-        let nothing = || vec![false; count];
-        let Some(seen) = &self.frames[index] else {
-            return Ok(Pixels { uncovered: nothing(), left_by_objects: nothing(), of_lights: nothing() });
-        };
+        // It has just been looked at.
+        let Some(seen) = &self.frames[index] else { return Ok(Pixels::default()) };
+        let emitters: Vec<bool> = seen.points.iter().map(|it| it.is_some_and(|point| point.shines)).collect();
         Ok(Pixels {
             uncovered: self.uncovered(seen, index, before.clone()),
             left_by_objects: self.left_by_objects(seen, index, before),
             of_lights: self.widened(&seen.of_lights),
+            of_emitters: self.widened(&emitters),
         })
     }
 
@@ -161,41 +163,51 @@ impl<'a> Visibility<'a> {
         for (object, model) in &frame.transforms {
             models[*object] = *model;
         }
-        let triangles = &self.scene.triangles;
-        let corner = |position: u32| triangles.positions[position as usize].as_dvec3();
-        let placed = |(corners, owner): (&[u32; 3], &Option<usize>)| {
-            let model = owner.map_or(DMat4::IDENTITY, |object| models[object]);
-            corners.map(|position| model.transform_point3(corner(position)).as_vec3().to_array())
-        };
-        let positions: Vec<[f32; 3]> = triangles.corners.iter().zip(&self.owners).flat_map(placed).collect();
-        let indices: Vec<[u32; 3]> =
-            (0..triangles.corners.len() as u32).map(|triangle| [0, 1, 2].map(|c| 3 * triangle + c)).collect();
-        let world =
-            World::new(&BlasInput { positions: &positions, indices: &indices, ..BlasInput::default() })?;
-
+        let world = self.world(&models)?;
         let clip_from_world = frame.view.projection * frame.view.modelview;
         let world_from_clip = clip_from_world.inverse();
-        let ray = |pixel: usize| {
-            let [width, height] = self.size;
+        let [width, height] = self.size;
+        let look = |pixel: usize| {
             let (x, y) = ((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
             let at = |z| DVec3::new(2.0 * x / width as f64 - 1.0, 1.0 - 2.0 * y / height as f64, z);
-            (world_from_clip.project_point3(at(-1.0)), world_from_clip.project_point3(at(1.0)))
-        };
-        let look = |pixel: usize| {
-            let (near, far) = ray(pixel);
+            let [near, far] = [-1.0, 1.0].map(|z| world_from_clip.project_point3(at(z)));
             let hit = world.first(near, far);
             let light = self.lights.as_ref().and_then(|lights| lights.first(near, far));
             let distance = hit.map_or(f32::INFINITY, |hit| hit.t);
-            let point = hit.and_then(|hit| {
-                let corners = triangles.corners.get(hit.primitive as usize)?.map(corner);
-                let [v, w] = hit.barycentrics.map(f64::from);
-                let position = corners[0] * (1.0 - v - w) + corners[1] * v + corners[2] * w;
-                Some(Point { object: self.owners[hit.primitive as usize], position })
-            });
-            (point, light.is_some_and(|light| light.t < distance))
+            (hit.and_then(|hit| self.point(&hit)), light.is_some_and(|light| light.t < distance))
         };
-        let (points, of_lights) = (0..self.size[0] * self.size[1]).into_par_iter().map(look).unzip();
+        let (points, of_lights) = (0..width * height).into_par_iter().map(look).unzip();
         Ok(Seen { world, clip_from_world, world_from_clip, models, points, of_lights })
+    }
+
+    /// The triangles, with objects where they are in a frame.
+    fn world(&self, models: &[DMat4]) -> Result<World, BuildError> {
+        let triangles = &self.scene.triangles;
+        let placed = |(corners, owner): (&[u32; 3], &Option<usize>)| {
+            let model = owner.map_or(DMat4::IDENTITY, |object| models[object]);
+            corners.map(|corner| model.transform_point3(self.corner(corner)).as_vec3().to_array())
+        };
+        let positions: Vec<[f32; 3]> = triangles.corners.iter().zip(&self.owners).flat_map(placed).collect();
+        let numbers = 0..triangles.corners.len() as u32;
+        let indices: Vec<[u32; 3]> = numbers.map(|triangle| [0, 1, 2].map(|c| 3 * triangle + c)).collect();
+        World::new(&BlasInput { positions: &positions, indices: &indices, ..BlasInput::default() })
+    }
+
+    /// What was hit.
+    fn point(&self, hit: &Hit) -> Option<Point> {
+        let triangle = hit.primitive as usize;
+        let triangles = &self.scene.triangles;
+        let corners = triangles.corners.get(triangle)?.map(|corner| self.corner(corner));
+        let [v, w] = hit.barycentrics.map(f64::from);
+        Some(Point {
+            object: self.owners[triangle],
+            shines: self.scene.materials[triangles.materials[triangle] as usize].emission != DVec3::ZERO,
+            position: corners[0] * (1.0 - v - w) + corners[1] * v + corners[2] * w,
+        })
+    }
+
+    fn corner(&self, position: u32) -> DVec3 {
+        self.scene.triangles.positions[position as usize].as_dvec3()
     }
 }
 
@@ -227,7 +239,7 @@ impl World {
     }
 
     /// What is met first from one point to another; t from 0 to 1.
-    fn first(&self, from: DVec3, to: DVec3) -> Option<afterglow_bvh::Hit> {
+    fn first(&self, from: DVec3, to: DVec3) -> Option<Hit> {
         self.trace(from.as_vec3(), (to - from).as_vec3(), 1.0, false)
     }
 
@@ -236,7 +248,7 @@ impl World {
         self.trace(from.as_vec3(), (point - from).as_vec3(), 1.0 - NEAR_SHARE, true).is_some()
     }
 
-    fn trace(&self, origin: Vec3, direction: Vec3, t_max: f32, any_hit: bool) -> Option<afterglow_bvh::Hit> {
+    fn trace(&self, origin: Vec3, direction: Vec3, t_max: f32, any_hit: bool) -> Option<Hit> {
         let blas = |address| (address == ADDRESS).then_some(self.blas.words.as_slice());
         let ray = Ray { origin, t_min: 0.0, direction, t_max };
         trace(&Rays { tlas: &self.tlas.words, blas: &blas }, &ray, Query { mask: 1, any_hit }, &|_, _, _| {

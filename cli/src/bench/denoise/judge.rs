@@ -269,3 +269,93 @@ impl Summary {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use afterglow_metrics::Encoding;
+
+    use super::*;
+    use crate::bench::denoise::sequence::tests::frame;
+    use crate::bench::denoise::visibility::tests::{SIDE, scene};
+
+    /// Dark where a moving square is seen, else as bright as the light.
+    fn truth(frame: usize, light: f32) -> Image {
+        let moved = if frame >= 4 { 0.5 } else { 0.0 };
+        Image::from_fn(SIDE, SIDE, Encoding::Linear, |x, y| {
+            let at = |column: usize| ((column as f64 + 0.5) / SIDE as f64 * 2.0 - 1.0) * 0.5f64.tan() * 4.0;
+            let inside = (at(x) + 0.5 - moved).abs() < 0.5 && at(y).abs() < 0.5;
+            [if inside { 0.1 * light } else { light }; 3]
+        })
+        .unwrap()
+    }
+
+    /// A square moves in frame 4, the light goes to a tenth in frame 10.
+    fn sequence() -> (Sequence, References, Vec<Image>) {
+        let light = |index| if index < 10 { 1.0 } else { 0.1 };
+        let frames = (0..24).map(|index| frame(0.0, if index >= 4 { 0.5 } else { 0.0 }, light(index)));
+        let pictures: Vec<Image> = (0..24).map(|index| truth(index, light(index) as f32)).collect();
+        let of_frame = (0..24).map(|index| {
+            Some(if index < 4 {
+                0
+            } else if index < 10 {
+                4
+            } else {
+                10
+            })
+        });
+        let known = [0, 4, 10].map(|index| (index, pictures[index].clone())).to_vec();
+        (Sequence::of(scene(frames.collect())), References::known(of_frame.collect(), known), pictures)
+    }
+
+    /// What a history makes of pictures that gives each new one such a weight.
+    fn blended(pictures: &[Image], weight: f32) -> Vec<Image> {
+        let mut history = pictures[0].clone();
+        let blend = |picture: &Image| {
+            for (kept, new) in history.pixels_mut().iter_mut().zip(picture.pixels()) {
+                *kept = [0, 1, 2].map(|channel| kept[channel] + (new[channel] - kept[channel]) * weight);
+            }
+            history.clone()
+        };
+        pictures.iter().map(blend).collect()
+    }
+
+    #[test]
+    fn what_is_right_has_no_error() {
+        let (sequence, references, pictures) = sequence();
+        let judge = Judge::new(&sequence, &(0..24), &references).unwrap();
+        let figures = judge.judge("right", &pictures).unwrap();
+        let summary = &figures.summary;
+        assert_eq!((summary.lag, summary.flicker, summary.worst_ssim), (Some(0), Some(0.0), Some(1.0)));
+        assert_eq!((summary.lit_relmse, summary.uncovered_relmse), (Some(0.0), Some(0.0)));
+        let is_new = |frame: &FrameFigures| frame.uncovered.pixels > 0;
+        let new: Vec<usize> = figures.frames.iter().filter(|it| is_new(it)).map(|it| it.frame).collect();
+        assert_eq!(new, (4..12).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_history_ghosts_where_it_was_uncovered_and_lags_behind_the_light() {
+        let (sequence, references, pictures) = sequence();
+        let judge = Judge::new(&sequence, &(0..24), &references).unwrap();
+        let figures = judge.judge("half", &blended(&pictures, 0.5)).unwrap();
+        let moved = &figures.frames[4];
+        assert_eq!(moved.kind, Kind::Moving);
+        // Half of the square's dark 0.1 is still there.
+        assert!((moved.uncovered.rmse_over_mean.unwrap() - 0.45).abs() < 1e-3);
+        assert_eq!(moved.uncovered.pixels, moved.left_by_objects.pixels);
+        assert!(moved.errors.ssim.unwrap() < 0.99);
+        assert_eq!((figures.summary.lag, figures.light_steps[0].frame), (Some(6), 10));
+        let slow = judge.judge("tenth", &blended(&pictures, 0.1)).unwrap();
+        assert_eq!((slow.summary.lag, slow.light_steps.len()), (None, 1));
+        assert!(slow.summary.flicker > figures.summary.flicker);
+    }
+
+    #[test]
+    fn parts_of_a_sequence_begin_without_a_history() {
+        let (sequence, references, pictures) = sequence();
+        let judge = Judge::new(&sequence, &(5..9), &references).unwrap();
+        let figures = judge.judge("part", &pictures[5..9]).unwrap();
+        assert_eq!((figures.frames.len(), figures.frames[0].kind, figures.still.len()), (4, Kind::First, 0));
+        assert!(figures.frames.iter().all(|frame| frame.uncovered.pixels == 0));
+        assert_eq!(judge.middle_of_uncovered(5..9), None);
+    }
+}

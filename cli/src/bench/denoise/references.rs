@@ -42,6 +42,14 @@ impl References {
         Some((number, self.pictures.get(&number)?))
     }
 
+    /// Pictures that tests have made, by the frames they are of.
+    #[cfg(test)]
+    pub fn known(of_frame: Vec<Option<usize>>, pictures: Vec<(usize, Image)>) -> References {
+        let reference = |mean| Reference { mean, standard_error: None };
+        let pictures = pictures.into_iter().map(|(frame, picture)| (frame, reference(picture)));
+        References { of_frame, pictures: pictures.collect() }
+    }
+
     /// Those of an archive with `reference_of_frame` (frames; -1: none), `full_NNNN` and, where they are known, `se_NNNN`, that
     /// the frames `played` need.
     pub fn load(path: &Path, sequence: &Sequence, played: &Range<usize>) -> Result<References, Failure> {

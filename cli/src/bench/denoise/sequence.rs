@@ -62,6 +62,12 @@ impl Sequence {
         Sequence::new(path, &bytes, scene)
     }
 
+    /// Of a scene that no file has.
+    #[cfg(test)]
+    pub fn of(scene: SceneFile) -> Sequence {
+        Sequence::new(Path::new("test.json"), &[], scene).unwrap()
+    }
+
     fn new(path: &Path, bytes: &[u8], scene: SceneFile) -> Result<Sequence, Failure> {
         if scene.frames.is_empty() {
             return Err(Failure::input(path, "the scene is a still: it has no sequence of frames"));

@@ -258,16 +258,16 @@ impl World {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use afterglow_scene_file::{Material, Model, Object, SphereLight, Triangles};
 
     use super::*;
     use crate::bench::denoise::sequence::tests::frame;
 
-    const SIDE: usize = 32;
+    pub const SIDE: usize = 32;
 
     /// A wall at z = 0, and a square before it, an object, whose middle is at x = -0.5; the eye is at z = 5.
-    fn scene(frames: Vec<SequenceFrame>) -> SceneFile {
+    pub fn scene(frames: Vec<SequenceFrame>) -> SceneFile {
         let square = |x: f32, half: f32, z: f32| {
             [[x - half, -half, z], [x + half, -half, z], [x + half, half, z], [x - half, half, z]]
                 .map(Vec3::from)

@@ -17,7 +17,7 @@ pub struct Arguments {
 }
 
 /// Places that the program reads or writes without being told.
-const FILES: [(&str, &str); 5] = [
+const FILES: [(&str, &str); 6] = [
     ("../lib/afterglow/libGL.so.1", "The library that games load, seen from the program's own folder."),
     (
         "$XDG_CACHE_HOME/afterglow/pipelines",
@@ -30,6 +30,10 @@ const FILES: [(&str, &str); 5] = [
     (
         "$XDG_CACHE_HOME/afterglow/lights",
         "Light sources recovered from baked light, at most 64 MiB. May be removed.",
+    ),
+    (
+        "$XDG_CACHE_HOME/afterglow/references",
+        "Converged pictures that bench denoise has made. May be removed; it makes them again then, which takes long.",
     ),
     (
         "$XDG_CACHE_HOME/afterglow/lavapipe",

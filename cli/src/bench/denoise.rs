@@ -51,7 +51,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
     /// Which denoiser, several times for several; the default is all
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = choice::parse)]
     denoiser: Vec<Denoiser>,
     /// Also Intel's Open Image Denoise on the same noise, each picture by itself, if Python has `pyoidn`
     #[arg(long)]

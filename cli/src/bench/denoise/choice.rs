@@ -1,7 +1,5 @@
 //! Which denoisers there are to be compared.
 
-use std::str::FromStr;
-
 use afterglow_render::PathtraceOptions;
 
 /// A way to smooth pictures of few samples.
@@ -24,19 +22,28 @@ impl Denoiser {
             Denoiser::Filter => "filter",
         }
     }
-
-    /// Tells a renderer.
-    pub fn apply(self, options: &mut PathtraceOptions) {
-        options.filter = self == Denoiser::Filter;
-    }
 }
 
-impl FromStr for Denoiser {
-    type Err = String;
+/// Tells a renderer.
+pub fn apply(denoiser: Denoiser, options: &mut PathtraceOptions) {
+    options.filter = denoiser == Denoiser::Filter;
+}
 
-    fn from_str(text: &str) -> Result<Denoiser, String> {
-        let names = || Denoiser::ALL.map(Denoiser::name).join(", ");
-        let found = Denoiser::ALL.into_iter().find(|denoiser| denoiser.name() == text);
-        found.ok_or_else(|| format!("'{text}' is none of {}", names()))
+/// The one of a name.
+pub fn parse(text: &str) -> Result<Denoiser, String> {
+    let found = Denoiser::ALL.into_iter().find(|denoiser| denoiser.name() == text);
+    found.ok_or_else(|| format!("'{text}' is none of {}", Denoiser::ALL.map(Denoiser::name).join(", ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_read_back() {
+        for denoiser in Denoiser::ALL {
+            assert_eq!(parse(denoiser.name()), Ok(denoiser));
+        }
+        assert!(parse("blur").unwrap_err().contains("none, "));
     }
 }

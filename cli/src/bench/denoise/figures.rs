@@ -110,8 +110,8 @@ pub fn mean_of(values: &[f64]) -> f64 {
 /// Frames until the mean luminance is within a tenth of what it should be, and stays there; 0 if it is so from the frame of the
 /// step on. None if it is not so in the last frame.
 pub fn lag(means: &[f64], wanted: f64) -> Option<usize> {
-    let is_late = |mean: &f64| (mean / wanted - 1.0).abs() <= LAG_TOLERANCE;
-    let settled = means.iter().rev().take_while(|mean| is_late(mean)).count();
+    let is_there = |mean: &f64| (mean / wanted - 1.0).abs() <= LAG_TOLERANCE;
+    let settled = means.iter().rev().take_while(|mean| is_there(mean)).count();
     (settled > 0).then_some(means.len() - settled)
 }
 

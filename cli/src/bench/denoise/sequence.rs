@@ -15,6 +15,9 @@ const OWN: [(&str, &[u8]); 2] = [
     ("lamps.json", include_bytes!("../../../../tests/denoise/lamps.json")),
 ];
 
+/// Frames of a sequence, at most: each is compared with those before it.
+const MOST_FRAMES: usize = 10_000;
+
 /// What a frame is to a denoiser.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -71,6 +74,9 @@ impl Sequence {
     fn new(path: &Path, bytes: &[u8], scene: SceneFile) -> Result<Sequence, Failure> {
         if scene.frames.is_empty() {
             return Err(Failure::input(path, "the scene is a still: it has no sequence of frames"));
+        }
+        if scene.frames.len() > MOST_FRAMES {
+            return Err(Failure::input(path, format!("has more than {MOST_FRAMES} frames")));
         }
         let stage = Stage::new(scene.clone()).map_err(|problem| Failure::input(path, problem))?;
         let name = match scene.name.as_str() {

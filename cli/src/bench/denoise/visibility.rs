@@ -25,7 +25,7 @@ pub struct Pixels {
     pub uncovered: Vec<bool>,
     /// Shows what no moving object covers, and one did in one of the last frames with the same camera.
     pub left_by_objects: Vec<bool>,
-    /// A spherical light is seen, or is next to it. Pathtrace does not show those.
+    /// A spherical light is seen, or next to it. Pathtrace does not show those.
     pub of_lights: Vec<bool>,
     /// The same of surfaces that shine: in pathtrace those in view have a radiance of 1 at most.
     pub of_emitters: Vec<bool>,
@@ -58,14 +58,12 @@ struct Seen {
     models: Vec<DMat4>,
     /// Of each pixel.
     points: Vec<Option<Point>>,
-    of_lights: Vec<bool>,
 }
 
 /// What a pixel shows.
 #[derive(Clone, Copy)]
 struct Point {
     object: Option<usize>,
-    shines: bool,
     /// In the still scene, before objects move.
     position: DVec3,
 }
@@ -106,12 +104,12 @@ impl<'a> Visibility<'a> {
         }
         // It has just been looked at.
         let Some(seen) = &self.frames[index] else { return Ok(Pixels::default()) };
-        let emitters: Vec<bool> = seen.points.iter().map(|it| it.is_some_and(|point| point.shines)).collect();
+        let [of_lights, of_emitters] = self.shining(seen);
         Ok(Pixels {
             uncovered: self.uncovered(seen, index, before.clone()),
             left_by_objects: self.left_by_objects(seen, index, before),
-            of_lights: self.widened(&seen.of_lights),
-            of_emitters: self.widened(&emitters),
+            of_lights,
+            of_emitters,
         })
     }
 
@@ -144,19 +142,6 @@ impl<'a> Visibility<'a> {
         seen.points.iter().enumerate().map(was_left).collect()
     }
 
-    /// With the neighbours of each: pictures show the mean over a pixel's square, and not what is at its centre.
-    fn widened(&self, chosen: &[bool]) -> Vec<bool> {
-        let [width, height] = self.size;
-        let mut widened = vec![false; chosen.len()];
-        for (pixel, _) in chosen.iter().enumerate().filter(|(_, chosen)| **chosen) {
-            let (x, y) = (pixel % width, pixel / width);
-            for row in y.saturating_sub(1)..(y + 2).min(height) {
-                widened[row * width + x.saturating_sub(1)..row * width + (x + 2).min(width)].fill(true);
-            }
-        }
-        widened
-    }
-
     fn look(&self, index: usize) -> Result<Seen, BuildError> {
         let frame = &self.scene.frames[index];
         let mut models = vec![DMat4::IDENTITY; self.scene.objects.len()];
@@ -169,15 +154,55 @@ impl<'a> Visibility<'a> {
         let [width, height] = self.size;
         let look = |pixel: usize| {
             let (x, y) = ((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
-            let at = |z| DVec3::new(2.0 * x / width as f64 - 1.0, 1.0 - 2.0 * y / height as f64, z);
-            let [near, far] = [-1.0, 1.0].map(|z| world_from_clip.project_point3(at(z)));
-            let hit = world.first(near, far);
-            let light = self.lights.as_ref().and_then(|lights| lights.first(near, far));
-            let distance = hit.map_or(f32::INFINITY, |hit| hit.t);
-            (hit.and_then(|hit| self.point(&hit)), light.is_some_and(|light| light.t < distance))
+            let [near, far] = self.ray(&world_from_clip, x, y);
+            world.first(near, far).and_then(|hit| self.point(&hit))
         };
-        let (points, of_lights) = (0..width * height).into_par_iter().map(look).unzip();
-        Ok(Seen { world, clip_from_world, world_from_clip, models, points, of_lights })
+        let points = (0..width * height).into_par_iter().map(look).collect();
+        Ok(Seen { world, clip_from_world, world_from_clip, models, points })
+    }
+
+    /// Where a ray through a place of the picture begins and ends; pixels from its upper left corner.
+    fn ray(&self, world_from_clip: &DMat4, x: f64, y: f64) -> [DVec3; 2] {
+        let [width, height] = self.size.map(|side| side as f64);
+        [-1.0, 1.0].map(|z| {
+            world_from_clip.project_point3(DVec3::new(2.0 * x / width - 1.0, 1.0 - 2.0 * y / height, z))
+        })
+    }
+
+    /// Pixels where a corner, or one of a neighbour, shows a spherical light; and those where it shows a surface that shines.
+    /// Corners, since at the picture's edge a light may be seen in a part of a pixel only.
+    fn shining(&self, seen: &Seen) -> [Vec<bool>; 2] {
+        let [width, height] = self.size;
+        let corner = |number: usize| {
+            let (x, y) = (number % (width + 1), number / (width + 1));
+            let [near, far] = self.ray(&seen.world_from_clip, x as f64, y as f64);
+            let hit = seen.world.first(near, far);
+            let light = self.lights.as_ref().and_then(|lights| lights.first(near, far));
+            let is_light = light.is_some_and(|light| light.t < hit.map_or(f32::INFINITY, |hit| hit.t));
+            (is_light, !is_light && hit.is_some_and(|hit| self.shines(&hit)))
+        };
+        let corners = (0..(width + 1) * (height + 1)).into_par_iter().map(corner);
+        let (lights, emitters): (Vec<bool>, Vec<bool>) = corners.unzip();
+        [self.about(&lights), self.about(&emitters)]
+    }
+
+    fn shines(&self, hit: &Hit) -> bool {
+        let material = self.scene.triangles.materials.get(hit.primitive as usize);
+        material.is_some_and(|material| self.scene.materials[*material as usize].emission != DVec3::ZERO)
+    }
+
+    /// Pixels less than two pixels away from chosen corners: pictures show the mean over a pixel's square, and not what is at
+    /// a point.
+    fn about(&self, corners: &[bool]) -> Vec<bool> {
+        let [width, height] = self.size;
+        let mut chosen = vec![false; width * height];
+        for (corner, _) in corners.iter().enumerate().filter(|(_, chosen)| **chosen) {
+            let (x, y) = (corner % (width + 1), corner / (width + 1));
+            for row in y.saturating_sub(2)..(y + 2).min(height) {
+                chosen[row * width + x.saturating_sub(2)..row * width + (x + 2).min(width)].fill(true);
+            }
+        }
+        chosen
     }
 
     /// The triangles, with objects where they are in a frame.
@@ -201,7 +226,6 @@ impl<'a> Visibility<'a> {
         let [v, w] = hit.barycentrics.map(f64::from);
         Some(Point {
             object: self.owners[triangle],
-            shines: self.scene.materials[triangles.materials[triangle] as usize].emission != DVec3::ZERO,
             position: corners[0] * (1.0 - v - w) + corners[1] * v + corners[2] * w,
         })
     }

@@ -1,5 +1,6 @@
 //! `afterglow bench`: what things cost, beside something real.
 
+mod denoise;
 mod gl;
 mod gl_client;
 mod lights;
@@ -28,6 +29,8 @@ enum What {
     Scene(scene::Arguments),
     /// What many lights cost, and what choosing among them well is worth.
     Lights(lights::Arguments),
+    /// How good pictures of few samples are while things move, for each denoiser.
+    Denoise(denoise::Arguments),
     /// One side of `gl`: measures the libGL that is found first, and prints the figures as JSON.
     #[command(hide = true)]
     GlClient(gl_client::Arguments),
@@ -40,6 +43,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         What::Rays(arguments) => rays::run(arguments),
         What::Scene(arguments) => scene::run(arguments),
         What::Lights(arguments) => lights::run(arguments),
+        What::Denoise(arguments) => denoise::run(arguments),
         What::GlClient(arguments) => gl_client::run(arguments),
     }
 }

@@ -36,6 +36,10 @@ const FILES: [(&str, &str); 6] = [
         "Light sources recovered from baked light, at most 64 MiB. May be removed.",
     ),
     (
+        "$XDG_CACHE_HOME/afterglow/references",
+        "Converged pictures that bench denoise has made. May be removed; it makes them again then, which takes long.",
+    ),
+    (
         "$XDG_CACHE_HOME/afterglow/lavapipe",
         "A software driver that ./x setup puts there for --device lavapipe.",
     ),

@@ -354,7 +354,8 @@ fn light_scale(text: &str) -> Result<f32, String> {
     }
 }
 
-fn limit(text: &str) -> Result<f32, String> {
+/// A radiance above 0, or `inf`.
+pub fn limit(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(limit) if limit > 0.0 => Ok(limit),
         _ => Err(format!("'{text}' is no radiance above 0")),

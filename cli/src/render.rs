@@ -1,9 +1,9 @@
 //! `afterglow render`: makes pictures of a scene in a file.
 
 mod destination;
-mod pace;
+pub mod pace;
 mod painter;
-mod progress;
+pub mod progress;
 mod report;
 mod selection;
 

@@ -44,6 +44,21 @@ fn a_file_that_is_not_there() {
 }
 
 #[test]
+fn denoisers_are_measured_on_sequences() {
+    let scene = data("../denoise/glossy.json");
+    let mut document: serde_json::Value = serde_json::from_slice(&std::fs::read(&scene).unwrap()).unwrap();
+    document.as_object_mut().unwrap().remove("sequence");
+    let folder = tempfile::tempdir().unwrap();
+    let still = folder.path().join("still.json");
+    std::fs::write(&still, document.to_string()).unwrap();
+    let (code, said) = run(&["bench", "denoise", "--scene", path(&still)]);
+    assert_eq!((code, said.contains("no sequence")), (4, true), "{said}");
+    assert_eq!(run(&["bench", "denoise", "--scene", "/nowhere/at-all.json"]).0, 4);
+    assert_eq!(run(&["bench", "denoise", "--references", "/nowhere/at-all.npz"]).0, 2);
+    assert_eq!(run(&["bench", "denoise", "--denoiser", "blur"]).0, 2);
+}
+
+#[test]
 fn a_trace_that_is_cut_plays_up_to_the_cut() {
     let whole = std::fs::read(data("glxgears.trace")).unwrap();
     let folder = tempfile::tempdir().unwrap();

@@ -20,6 +20,6 @@ mod view;
 
 pub use error::{Problem, SceneFileError};
 pub use scene::{
-    Material, Model, Object, SceneFile, SequenceFrame, Sky, SphereLight, Sun, Triangles, View, load,
+    Material, Model, Object, SceneFile, SequenceFrame, Sky, SphereLight, Sun, Triangles, View, load, parse,
 };
 pub use stage::Stage;

@@ -139,6 +139,14 @@ struct Kind {
     mesh: Option<String>,
 }
 
+/// Reads a scene, with or without a sequence, from the bytes of its JSON (`rtgt-1`).
+///
+/// # Errors
+/// If it is damaged, too large, or contradicts itself.
+pub fn parse(text: &[u8]) -> Result<SceneFile, Problem> {
+    rtgt::parse(text)
+}
+
 fn load_json(path: &Path) -> Result<SceneFile, SceneFileError> {
     let of_file = |problem| SceneFileError::new(path, problem);
     let text = read_bounded(path).map_err(of_file)?;

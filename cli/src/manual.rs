@@ -17,7 +17,7 @@ pub struct Arguments {
 }
 
 /// Places that the program reads or writes without being told.
-const FILES: [(&str, &str); 6] = [
+const FILES: [(&str, &str); 7] = [
     ("../lib/afterglow/libGL.so.1", "The library that games load, seen from the program's own folder."),
     (
         "$XDG_CONFIG_HOME/afterglow/config.toml",

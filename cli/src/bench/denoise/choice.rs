@@ -1,33 +1,6 @@
 //! Which denoisers there are to be compared.
 
-use afterglow_render::PathtraceOptions;
-
-/// A way to smooth pictures of few samples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Denoiser {
-    /// The noise stays.
-    None,
-    /// The filter of indirect light.
-    Filter,
-}
-
-impl Denoiser {
-    /// All of them.
-    pub const ALL: [Denoiser; 2] = [Denoiser::None, Denoiser::Filter];
-
-    /// As it is written on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Denoiser::None => "none",
-            Denoiser::Filter => "filter",
-        }
-    }
-}
-
-/// Tells a renderer.
-pub fn apply(denoiser: Denoiser, options: &mut PathtraceOptions) {
-    options.filter = denoiser == Denoiser::Filter;
-}
+pub use afterglow_render::Denoiser;
 
 /// The one of a name.
 pub fn parse(text: &str) -> Result<Denoiser, String> {

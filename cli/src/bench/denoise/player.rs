@@ -11,7 +11,7 @@ use afterglow_scene::{Relighting, Scene};
 use afterglow_scene_file::Stage;
 
 use super::Arguments;
-use super::choice::{self, Denoiser};
+use super::choice::Denoiser;
 use super::references::Reference;
 use crate::failure::Failure;
 use crate::render::pace::Pace;
@@ -64,7 +64,7 @@ impl Player {
         mut progress: impl FnMut(),
     ) -> Result<Pictures, Failure> {
         let mut options = self.options.clone();
-        choice::apply(denoiser, &mut options);
+        options.denoiser = denoiser;
         let mut renderer = self.renderer(Mode::Pathtrace, &options)?;
         let picture = |index| {
             execute(&mut renderer, stage.staged(index))?;
@@ -116,7 +116,7 @@ impl Player {
     fn plain(&self) -> PathtraceOptions {
         let mut options = self.options.clone();
         options.accumulate = false;
-        choice::apply(Denoiser::None, &mut options);
+        options.denoiser = Denoiser::None;
         options
     }
 

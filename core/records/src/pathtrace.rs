@@ -329,11 +329,15 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// The same on its way through a denoiser: four half floats a channel, and four more.
+    /// The same on its way through a denoiser; the deviations of all texels lie behind all else of them (see channels.glsl).
     pub struct ChannelTexel {
-        /// Direct, specular and indirect light, red, green and blue, and the standard deviation of its luminance; then the second
-        /// band of indirect light, and how far the specular lobe's ray went.
-        pub halves: [u32; 8],
+        /// Direct, specular and indirect light, nine bits a colour and a shared exponent of five.
+        pub colors: [u32; 3],
+        /// The second band, three snorm8 of four times the luminance of the first, and how far the specular lobe's ray went, a
+        /// logarithm in a byte.
+        pub towards: u32,
+        /// Standard deviations of the luminance of direct, indirect and specular light, such logarithms.
+        pub deviations: u32,
     }
 }
 
@@ -367,8 +371,8 @@ shared_struct! {
         pub chosen: u32,
         /// The texel where it was.
         pub before: u32,
-        /// Luminance of direct, indirect and specular light there, half floats.
-        pub luminance: [u32; 2],
+        /// Luminance of direct, indirect and specular light there, as [`LuminanceTexel`] has it.
+        pub luminance: u32,
     }
 }
 
@@ -383,8 +387,8 @@ shared_struct! {
 shared_struct! {
     /// Luminance of a texel's light as it was traced.
     pub struct LuminanceTexel {
-        /// Direct, indirect, specular, half floats; the fourth is 1 where older numbers were used.
-        pub halves: [u32; 2],
+        /// Direct, indirect, specular, nine bits each, an exponent of four, and a bit that says that older numbers were used.
+        pub word: u32,
     }
 }
 

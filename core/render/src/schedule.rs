@@ -123,8 +123,8 @@ pub(crate) fn schedule(
     let views = traced.map(|traced| {
         let prepared = traced.prepared;
         let (backend, parity) = (prepared.backend, prepared.parity);
-        let clean = traced.denoising.output;
-        ViewResources::declare(&mut graph, traced.buffers, traced.world, backend, parity, clean, traced.sky)
+        let plan = traced.denoising;
+        ViewResources::declare(&mut graph, traced.buffers, traced.world, backend, parity, plan, traced.sky)
     });
     let mut declaring =
         Declaring { graph, resources, views, begun: None, work: Vec::with_capacity(plan.steps.len() + 1) };

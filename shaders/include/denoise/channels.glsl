@@ -7,8 +7,9 @@
 #include "../pathtrace/packing.glsl"
 #include "../pathtrace/tables.glsl"
 
-// As ChannelTexel, in two parts that are read at once.
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ChannelTexels { uvec4 halves[]; };
+// As ChannelTexel, in two parts that are each read at once: colours and the second band of all texels, then deviations of all.
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ColorTexels { uvec4 words[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer DeviationTexels { uint words[]; };
 
 // Colours, and the standard deviation of their luminance; the second band, and how far the specular lobe's ray went.
 struct Lit {
@@ -22,26 +23,51 @@ Lit no_light_there() {
     return Lit(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
 }
 
-vec4 four_halves(uvec2 words) {
-    return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
+// Where the floats begin that a byte holds: at 2^-15, with three bits behind the first.
+#define BYTE_FIRST (112u << 23)
+#define BYTE_SHIFT 20
+
+// What is positive as a byte: 0, or the upper bits of a float from 2^-15 to 122880. `random` of [0, 1) rounds, 0.5 to the nearest.
+uint pack_logarithm(float value, float random) {
+    uint bits = max(floatBitsToUint(value), BYTE_FIRST) - BYTE_FIRST;
+    bits += uint((0.01 + 0.98 * random) * float(1u << BYTE_SHIFT));
+    return value > 0.0 ? clamp(bits >> BYTE_SHIFT, 1u, 255u) : 0u;
 }
 
-uvec2 pack_four_halves(vec4 value) {
-    return uvec2(packHalf2x16(value.xy), packHalf2x16(value.zw));
+float unpack_logarithm(uint byte) {
+    return byte == 0u ? 0.0 : uintBitsToFloat((byte << BYTE_SHIFT) + BYTE_FIRST);
 }
 
-Lit read_lit(uint64_t channels, uint index) {
-    uvec4 first = ChannelTexels(channels).halves[2u * index];
-    uvec4 second = ChannelTexels(channels).halves[2u * index + 1u];
-    return Lit(four_halves(first.xy), four_halves(first.zw), four_halves(second.xy), four_halves(second.zw));
+// The second band beside the luminance of the first, of which it is four times as much at most.
+const float MOST_TOWARDS = 4.0;
+
+uint64_t deviations_of(ViewRecord view, uint64_t channels) {
+    return channels + uint64_t(view.light_width * view.light_height) * 16ul;
 }
 
-// `random` of [0, 1) rounds: see dithered_half.
-void write_lit(uint64_t channels, uint index, Lit light, float random) {
-    ChannelTexels(channels).halves[2u * index] = uvec4(pack_four_halves(dithered_half(light.direct, random)),
-        pack_four_halves(dithered_half(light.specular, random)));
-    ChannelTexels(channels).halves[2u * index + 1u] = uvec4(pack_four_halves(dithered_half(light.indirect, random)),
-        pack_four_halves(dithered_half(light.towards, random)));
+Lit read_lit(ViewRecord view, uint64_t channels, uint index) {
+    uvec4 words = ColorTexels(channels).words[index];
+    uint deviation = DeviationTexels(deviations_of(view, channels)).words[index];
+    Lit light;
+    light.direct = vec4(unpack_shared_exponent(words.x), unpack_logarithm(deviation & 255u));
+    light.specular = vec4(unpack_shared_exponent(words.y), unpack_logarithm((deviation >> 16) & 255u));
+    light.indirect = vec4(unpack_shared_exponent(words.z), unpack_logarithm((deviation >> 8) & 255u));
+    float scale = MOST_TOWARDS * luminance(light.indirect.rgb);
+    light.towards = vec4(unpackSnorm4x8(words.w).xyz * scale, unpack_logarithm(words.w >> 24));
+    return light;
+}
+
+// `random` of [0, 1) rounds, so that the mean is kept: small steps of what is kept from frame to frame are not lost. 0.5 rounds to the
+// nearest; what can be written exactly stays as it is.
+void write_lit(ViewRecord view, uint64_t channels, uint index, Lit light, float random) {
+    float scale = MOST_TOWARDS * luminance(light.indirect.rgb);
+    vec3 towards = scale > 0.0 ? clamp(light.towards.xyz / scale, -1.0, 1.0) : vec3(0.0);
+    uvec3 bands = uvec3(ivec3(floor(towards * 127.0 + 0.01 + 0.98 * random))) & 255u;
+    ColorTexels(channels).words[index] = uvec4(dithered_shared_exponent(light.direct.rgb, random),
+        dithered_shared_exponent(light.specular.rgb, random), dithered_shared_exponent(light.indirect.rgb, random),
+        bands.x | bands.y << 8 | bands.z << 16 | pack_logarithm(light.towards.w, 0.5) << 24);
+    DeviationTexels(deviations_of(view, channels)).words[index] = pack_logarithm(light.direct.w, random)
+        | pack_logarithm(light.indirect.w, random) << 8 | pack_logarithm(light.specular.w, random) << 16;
 }
 
 void add_lit(inout Lit sum, Lit light, vec3 weights) {

@@ -16,6 +16,24 @@ uint stratum_index(ViewRecord view, ivec2 stratum) {
     return uint(stratum.y) * strata_size(view).x + uint(stratum.x);
 }
 
+// Luminance of direct, indirect and specular light in nine bits each, a common exponent of four (2^-7 to 2^8), and whether older numbers
+// were used.
+uint pack_luminances(vec3 luminances, bool is_again) {
+    float greatest = max(luminances.x, max(luminances.y, luminances.z));
+    uint exponent = uint(clamp(int(floatBitsToUint(greatest) >> 23) - 119, 0, 15));
+    uvec3 steps = uvec3(min(luminances * exp2(16.0 - float(exponent)) + 0.5, 511.0));
+    return steps.x | steps.y << 9 | steps.z << 18 | exponent << 27 | (is_again ? 1u << 31 : 0u);
+}
+
+vec3 unpack_luminances(uint word) {
+    float unit = exp2(float((word >> 27) & 15u) - 16.0);
+    return vec3(word & 511u, (word >> 9) & 511u, (word >> 18) & 511u) * unit;
+}
+
+bool was_again(uint word) {
+    return word >> 31 != 0u;
+}
+
 // Changes of luminance of direct, indirect and specular light, and the greater of both luminances.
 struct Gradient {
     vec3 change;

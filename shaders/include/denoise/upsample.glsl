@@ -16,7 +16,7 @@ struct SeenLight {
 
 Lit light_texel(ViewRecord view, uint index) {
     if (view.denoised != 0ul) {
-        return read_lit(view.denoised, index);
+        return read_lit(view, view.denoised, index);
     }
     LightTexel light = LightTexels(view.light).entries[index];
     return Lit(vec4(light.direct, 0.0), vec4(light.specular, 0.0), vec4(light.indirect, 0.0), vec4(light.towards, 0.0));

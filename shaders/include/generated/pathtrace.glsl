@@ -179,8 +179,10 @@ struct LightTexel { // 48 bytes
 
 #ifndef STRUCT_ChannelTexel
 #define STRUCT_ChannelTexel
-struct ChannelTexel { // 32 bytes
-    uint halves[8];
+struct ChannelTexel { // 20 bytes
+    uint colors[3];
+    uint towards;
+    uint deviations;
 };
 #endif
 
@@ -203,10 +205,10 @@ struct MotionTexel { // 8 bytes
 
 #ifndef STRUCT_StratumTexel
 #define STRUCT_StratumTexel
-struct StratumTexel { // 16 bytes
+struct StratumTexel { // 12 bytes
     uint chosen;
     uint before;
-    uint luminance[2];
+    uint luminance;
 };
 #endif
 
@@ -219,8 +221,8 @@ struct GradientTexel { // 12 bytes
 
 #ifndef STRUCT_LuminanceTexel
 #define STRUCT_LuminanceTexel
-struct LuminanceTexel { // 8 bytes
-    uint halves[2];
+struct LuminanceTexel { // 4 bytes
+    uint word;
 };
 #endif
 

@@ -63,7 +63,7 @@ vec3 painted_texel(ViewRecord view, uvec2 pixel) {
     switch (view.paint) {
         case PAINT_MOTION: return motion_color(Motions(view.motions).entries[index]);
         case PAINT_HISTORY: return vec3(guide_lengths(Guides(view.guides).entries[index])) / view.longest;
-        case PAINT_VARIANCE: return compressed(deviations(read_lit(view.history, index)));
+        case PAINT_VARIANCE: return compressed(deviations(read_lit(view, view.history, index)));
         default: return view.gradients == 0ul ? vec3(0.0) : disbelief(view, texel);
     }
 }

@@ -53,7 +53,7 @@ vec3 smoothed(ViewRecord view, ivec2 texel, GuideTexel guide, vec3 own) {
         if (!is_same_class(guide, other)) {
             continue;
         }
-        vec3 theirs = known_to(read_lit(push.source, tap), other);
+        vec3 theirs = known_to(read_lit(view, push.source, tap), other);
         float weight = KERNEL[abs(offset.x) + abs(offset.y)];
         sum += weight * theirs * theirs;
         weights += weight;
@@ -77,16 +77,20 @@ void main() {
     }
     uint index = light_index(view, texel);
     GuideTexel guide = Guides(view.guides).entries[index];
-    Lit middle = read_lit(push.source, index);
+    Lit middle = read_lit(view, push.source, index);
     if (guide.depth == 0.0) {
-        write_lit(push.target, index, middle, 0.5);
+        write_lit(view, push.target, index, middle, 0.5);
         if (push.step == 1u) {
-            write_lit(view.history, index, middle, 0.5);
+            write_lit(view, view.history, index, middle, 0.5);
         }
         return;
     }
     vec3 normal = unpack_unit_vector(guide.normal);
     vec3 position = seen_position(view, vec2(pixel_of_light(view, uvec2(texel))), guide.depth);
+    // Along the normal, what a texel shows lies at its depth times a plane of the texel's place, or at the sum of both.
+    vec3 across = vec3(dot(normal, view.pixel_origin), dot(normal, view.pixel_right), dot(normal, view.pixel_down));
+    float along = looks_parallel(view) ? dot(normal, view.forward) : 0.0;
+    float height = dot(normal, position);
     float tolerance = 1.0 / (PLANE_TOLERANCE * float(push.step) * seen_height(view, guide.depth) * view.light_step.y);
     float roughness = guide_roughness(guide);
     vec3 own = known_to(middle, guide);
@@ -112,13 +116,14 @@ void main() {
         if (!is_same_class(guide, other)) {
             continue;
         }
-        float from_plane = abs(dot(normal, seen_position(view, vec2(pixel_of_light(view, uvec2(at))), other.depth) - position));
+        float place = dot(across, vec3(1.0, vec2(pixel_of_light(view, uvec2(at)))));
+        float from_plane = abs((along == 0.0 ? place * other.depth : place + along * other.depth) - height);
         float facing = max(dot(normal, unpack_unit_vector(other.normal)), 0.0);
         float near = KERNEL[abs(offset.x) + abs(offset.y)] * max(1.0 - from_plane * tolerance, 0.0);
         if (!(near * facing > 0.0)) {
             continue;
         }
-        Lit light = read_lit(push.source, tap);
+        Lit light = read_lit(view, push.source, tap);
         vec3 weight = near * powers(facing, roughness) * exp(-abs(luminances(light) - brightness) * scale);
         weight.z *= specular_reach;
         vec3 theirs = known_to(light, other);
@@ -132,8 +137,8 @@ void main() {
         Lit kept = mixed(middle, sum, clamp((LONG - lengths_of(guide)) / (LONG - SHORT), 0.0, 1.0));
         set_deviations(kept, sqrt(samples / weights));
         float random = float(hash(index ^ hash(view.frame_number + 0x51edu)) >> 8) / 16777216.0;
-        write_lit(view.history, index, kept, random);
+        write_lit(view, view.history, index, kept, random);
     }
     set_deviations(sum, sqrt(squares) / weights);
-    write_lit(push.target, index, sum, 0.5);
+    write_lit(view, push.target, index, sum, 0.5);
 }

@@ -24,9 +24,8 @@ void main() {
     Gradient gradient = Gradient(vec3(0.0), vec3(0.0));
     if (chosen.chosen != NONE_CHOSEN) {
         uvec2 texel = STRATUM_EDGE * stratum + uvec2(chosen.chosen % STRATUM_EDGE, chosen.chosen / STRATUM_EDGE);
-        uint halves[2] = Luminances(view.luminances).entries[light_index(view, ivec2(texel))].halves;
-        vec3 now = four_halves(uvec2(halves[0], halves[1])).xyz;
-        vec3 before = four_halves(uvec2(chosen.luminance[0], chosen.luminance[1])).xyz;
+        vec3 now = unpack_luminances(Luminances(view.luminances).entries[light_index(view, ivec2(texel))].word);
+        vec3 before = unpack_luminances(chosen.luminance);
         gradient = Gradient(now - before, max(now, before));
     }
     write_gradient(push.target, index, gradient);

@@ -30,7 +30,7 @@ void main() {
     if (any(greaterThanEqual(stratum, strata_size(view)))) {
         return;
     }
-    StratumTexel chosen = StratumTexel(NONE_CHOSEN, 0u, uint[2](0u, 0u));
+    StratumTexel chosen = StratumTexel(NONE_CHOSEN, 0u, 0u);
     float brightest = -1.0;
     [[dont_unroll]] for (uint i = 0u; i < NONE_CHOSEN && view.guides_before != 0ul; ++i) {
         ivec2 texel = ivec2(STRATUM_EDGE * stratum + uvec2(i % STRATUM_EDGE, i / STRATUM_EDGE));
@@ -42,13 +42,13 @@ void main() {
         if (guide.depth == 0.0 || !texel_before(view, texel, guide, before)) {
             continue;
         }
-        uint halves[2] = Luminances(view.luminances).entries[before].halves;
-        vec4 luminance = four_halves(uvec2(halves[0], halves[1]));
+        uint word = Luminances(view.luminances).entries[before].word;
+        vec3 luminance = unpack_luminances(word);
         float brightness = luminance.x + luminance.y + luminance.z;
         // Numbers that were old then are not known any more.
-        if (luminance.w == 0.0 && brightness > brightest) {
+        if (!was_again(word) && brightness > brightest) {
             brightest = brightness;
-            chosen = StratumTexel(i, before, halves);
+            chosen = StratumTexel(i, before, word);
         }
     }
     Strata(view.strata).entries[stratum_index(view, ivec2(stratum))] = chosen;

@@ -45,7 +45,7 @@ Past past_at(ViewRecord view, vec2 place, GuideTexel guide, float depth, float s
         if (!shows_same(guide, before, depth, slope)) {
             continue;
         }
-        add_lit(past.light, read_lit(view.history, index), vec3(weight));
+        add_lit(past.light, read_lit(view, view.history, index), vec3(weight));
         past.lengths += weight * vec3(guide_lengths(before));
         weights += weight;
     }
@@ -73,7 +73,7 @@ vec3 spread_around(ViewRecord view, ivec2 texel, GuideTexel guide, float slope) 
     vec3 sum = vec3(0.0);
     vec3 squares = vec3(0.0);
     float count = 0.0;
-    vec3 middle = luminances(read_lit(view.noisy, light_index(view, texel)));
+    vec3 middle = luminances(read_lit(view, view.noisy, light_index(view, texel)));
     [[dont_unroll]] for (int i = 0; i < 25; ++i) {
         ivec2 at = texel + ivec2(i % 5, i / 5) - 2;
         if (!is_in_light(view, at)) {
@@ -85,7 +85,7 @@ vec3 spread_around(ViewRecord view, ivec2 texel, GuideTexel guide, float slope) 
             continue;
         }
         // Differences to one of them: large numbers that are alike leave no rest.
-        vec3 away = luminances(read_lit(view.noisy, index)) - middle;
+        vec3 away = luminances(read_lit(view, view.noisy, index)) - middle;
         sum += away;
         squares += away * away;
         count += 1.0;
@@ -110,12 +110,12 @@ void main() {
     uint index = light_index(view, texel);
     GuideTexel guide = Guides(view.guides).entries[index];
     if (guide.depth == 0.0) {
-        write_lit(push.target, index, no_light_there(), 0.5);
+        write_lit(view, push.target, index, no_light_there(), 0.5);
         return;
     }
     float slope = depth_slope(view, texel, guide);
     MotionTexel motion = Motions(view.motions).entries[index];
-    Lit noisy = read_lit(view.noisy, index);
+    Lit noisy = read_lit(view, view.noisy, index);
     Past past = Past(no_light_there(), vec3(0.0));
     if (motion.depth > 0.0) {
         past = past_at(view, vec2(texel) + unpackHalf2x16(motion.offset), guide, motion.depth, slope);
@@ -133,7 +133,7 @@ void main() {
     vec3 share = 1.0 / (min(past.lengths, view.longest - 1.0) + 1.0);
     if (view.gradients != 0ul) {
         // What was traced with older numbers is known already, and was chosen for its brightness: it says only what has changed.
-        bool is_again = unpackHalf2x16(Luminances(view.luminances).entries[index].halves[1]).y != 0.0;
+        bool is_again = was_again(Luminances(view.luminances).entries[index].word);
         share = is_again ? share * vec3(equal(past.lengths, vec3(0.0))) : share;
         share = mix(share, vec3(1.0), disbelief(view, uvec2(texel)));
     }
@@ -149,6 +149,6 @@ void main() {
         set_deviations(light, mix(own, max(own, around), vec3(lessThan(lengths, vec3(FEW)))));
     }
     float random = float(hash(index ^ hash(view.frame_number)) >> 8) / 16777216.0;
-    write_lit(push.target, index, light, random);
+    write_lit(view, push.target, index, light, random);
     Guides(view.guides).entries[index].bits = with_lengths(guide.bits, uvec3(lengths + random));
 }

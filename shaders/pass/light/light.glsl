@@ -9,7 +9,7 @@
 
 #include "trace.glsl"
 #include "denoise/channels.glsl"
-#include "denoise/guide.glsl"
+#include "denoise/gradients.glsl"
 #include "pathtrace/eye.glsl"
 #include "pathtrace/finite.glsl"
 #include "pathtrace/reservoir.glsl"
@@ -284,10 +284,9 @@ void main() {
         return;
     }
     Lit noisy = Lit(vec4(light.direct, 0.0), vec4(light.specular, 0.0), vec4(light.indirect, 0.0), vec4(light.towards, found.reflected));
-    write_lit(view.noisy, index, noisy, 0.5);
+    write_lit(view, view.noisy, index, noisy, 0.5);
     if (view.luminances != 0ul) {
         vec3 brightness = luminances(noisy);
-        uvec2 halves = pack_four_halves(min(vec4(brightness, is_again ? 1.0 : 0.0), MOST_HALF));
-        Luminances(view.luminances).entries[index].halves = uint[2](halves.x, halves.y);
+        Luminances(view.luminances).entries[index].word = pack_luminances(brightness, is_again);
     }
 }

@@ -22,7 +22,7 @@ pub(crate) fn declare(
     for resource in shown.into_iter().chain([views.clean_light(view)]).flatten() {
         pass.read(resource, Access::StorageReadCompute);
     }
-    if let (Some(composed), true) = (views.composed, needs.smooths_edges) {
+    if let (Some(composed), true) = (views.composed(view), needs.smooths_edges) {
         pass.write(composed, Access::StorageWriteCompute);
     }
     if let Some(sky) = &views.sky {

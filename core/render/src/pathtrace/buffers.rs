@@ -9,7 +9,7 @@ use afterglow_records::{
     Exposure, ExposureSum, LightTexel, MoverSum, RadianceTexel, ReservoirTexel, SurfaceTexel, TraceCounters,
 };
 
-use super::denoise::{Plan, Stores};
+use super::denoise::{Plan, Store, Stores};
 use crate::target::{COLOR_FORMAT, Target};
 
 /// Numbers of draw and triangle of each pixel.
@@ -134,9 +134,14 @@ impl ViewBuffers {
         Ok(is_left)
     }
 
-    /// Makes sure that edges can be smoothed.
-    pub(crate) fn reserve_composed(&mut self, gpu: &Gpu) -> Result<(), GpuError> {
-        if self.composed.is_none() {
+    /// Makes sure that edges can be smoothed, in a store that is `spare` by then if it has room for that.
+    pub(crate) fn reserve_composed(&mut self, gpu: &Gpu, spare: Option<Store>) -> Result<(), GpuError> {
+        let has_room = |stores: &Stores| {
+            spare.is_some_and(|store| stores.bytes_of(store) >= pixels(self.size) * COMPOSED_BYTES)
+        };
+        if self.stores.first().is_some_and(has_room) {
+            self.composed = None;
+        } else if self.composed.is_none() {
             self.composed = Some(Tracked::new(gpu, "composed", pixels(self.size) * COMPOSED_BYTES)?);
         }
         Ok(())

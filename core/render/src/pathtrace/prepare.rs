@@ -394,6 +394,9 @@ fn name_buffers(
     record.motions = address(Store::Motions);
     record.noisy = address(Store::Noisy);
     record.history = address(Store::History);
+    if let (None, Some(spare)) = (&buffers.composed, plan.spare) {
+        record.composed = address(spare);
+    }
     record.denoised = plan.output.map_or(0, address);
     record.strata = address(Store::Strata);
     record.gradients = plan.gradients.map_or(0, address);

@@ -111,9 +111,10 @@ pub(crate) struct ViewResources {
     pub(crate) reservoirs: Option<[ResourceId; 2]>,
     pub(crate) light: Vec<ResourceId>,
     pub(crate) stores: Vec<StoreResources>,
-    /// Which of these holds clean light.
-    pub(crate) clean: Option<Store>,
-    pub(crate) composed: Option<ResourceId>,
+    /// Which of these holds clean light, and which is free then.
+    clean: Option<Store>,
+    spare: Option<Store>,
+    composed: Option<ResourceId>,
     pub(crate) sums: ResourceId,
     pub(crate) exposure: ResourceId,
     pub(crate) movers: ResourceId,
@@ -131,7 +132,7 @@ impl ViewResources {
         [world, lists]: [ResourceState; 2],
         backend: Backend,
         parity: usize,
-        clean: Option<Store>,
+        plan: &Plan,
         sky: Option<&SkyMap>,
     ) -> Self {
         let visibility = &buffers.visibility;
@@ -159,7 +160,8 @@ impl ViewResources {
             }),
             light: buffers.light.iter().map(|light| import("light", light)).collect(),
             stores,
-            clean,
+            clean: plan.output,
+            spare: plan.spare,
             composed: buffers.composed.as_ref().map(|composed| import("composed", composed)),
             sums: import("exposure sums", &buffers.sums),
             exposure: import("exposure", &buffers.exposure),
@@ -196,6 +198,16 @@ impl ViewResources {
             Some(store) => self.stores.get(view)?.get(store),
             None => self.light.get(view).copied(),
         }
+    }
+
+    /// Where that is, if no store has room for what is shown before edges are smoothed.
+    pub(crate) fn composed_alone(&self) -> Option<ResourceId> {
+        self.composed
+    }
+
+    /// What is shown of a view before edges are smoothed.
+    pub(crate) fn composed(&self, view: usize) -> Option<ResourceId> {
+        self.composed.or_else(|| self.stores.get(view)?.get(self.spare?))
     }
 
     /// A store of a view, if there are any.
@@ -297,6 +309,6 @@ pub(crate) fn declare_view(
     composite::declare(graph, frame, views, view, needs);
     if needs.smooths_edges {
         work.push(TraceWork::Edges(view));
-        edges::declare(graph, frame, views, needs);
+        edges::declare(graph, frame, views, view, needs);
     }
 }

@@ -244,8 +244,9 @@ impl Tracer {
             self.past.forget();
             self.history.iter_mut().for_each(History::forget);
         }
+        let spare = self.plan.spare;
         match self.smooths_edges() {
-            true => self.buffers.as_mut().map_or(Ok(()), |buffers| buffers.reserve_composed(gpu)),
+            true => self.buffers.as_mut().map_or(Ok(()), |buffers| buffers.reserve_composed(gpu, spare)),
             false => Ok(()),
         }
     }
@@ -315,7 +316,7 @@ impl Tracer {
             for (stores, resources) in buffers.stores.iter_mut().zip(&resources.stores) {
                 stores.keep_states(graph, resources, parity);
             }
-            if let (Some(composed), Some(resource)) = (&mut buffers.composed, resources.composed) {
+            if let (Some(composed), Some(resource)) = (&mut buffers.composed, resources.composed_alone()) {
                 keep(&mut composed.state, resource);
             }
         }

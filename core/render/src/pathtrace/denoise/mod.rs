@@ -61,6 +61,8 @@ pub(crate) struct Plan {
     pub(crate) after_light: Vec<Step>,
     /// Where the clean channels are at the end.
     pub(crate) output: Option<Store>,
+    /// One that is free then, of 20 bytes a texel of light.
+    pub(crate) spare: Option<Store>,
     /// Where changes of light are, once they are known.
     pub(crate) gradients: Option<Store>,
 }

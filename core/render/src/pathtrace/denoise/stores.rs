@@ -111,6 +111,11 @@ impl Stores {
         self.of.iter().flatten().map(|tracked| tracked.buffer.size()).sum()
     }
 
+    /// Bytes of a store; 0 if there is none.
+    pub(crate) fn bytes_of(&self, store: Store) -> u64 {
+        self.of[store as usize].as_ref().map_or(0, |tracked| tracked.buffer.size())
+    }
+
     /// A store's address in frames of a parity; 0 if there is none.
     pub(crate) fn address(&self, store: Store, parity: usize) -> u64 {
         self.of[place(store, parity)].as_ref().map_or(0, |tracked| tracked.buffer.address())

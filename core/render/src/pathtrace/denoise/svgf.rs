@@ -13,6 +13,7 @@ pub(super) fn plan() -> Plan {
         before_light: Vec::new(),
         after_light: filter(None),
         output: Some(WAY[STEPS % 2]),
+        spare: Some(WAY[(STEPS + 1) % 2]),
         gradients: None,
     }
 }

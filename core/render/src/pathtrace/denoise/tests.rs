@@ -1,7 +1,7 @@
 //! Denoisers alone, on light that is made up.
 
 use afterglow_gpu::{BindlessSizes, Buffer, Commands, vk};
-use afterglow_records::{ChannelTexel, GuideTexel, LuminanceTexel, MotionTexel, StratumTexel, ViewRecord};
+use afterglow_records::{GuideTexel, LuminanceTexel, MotionTexel, StratumTexel, ViewRecord};
 use bytemuck::Zeroable;
 
 use super::*;
@@ -23,21 +23,45 @@ impl Light {
         0.2126 * red + 0.7152 * green + 0.0722 * blue
     }
 
-    fn texel(self) -> ChannelTexel {
-        let [red, green, blue] = self.0.map(half);
-        ChannelTexel {
-            halves: [red | green << 16, blue, red | green << 16, blue, red | green << 16, blue, 0, 0],
-        }
+    /// In nine bits each and a shared exponent.
+    fn word(self) -> u32 {
+        let greatest = self.0.into_iter().fold(0.0, f32::max);
+        let exponent = ((greatest.to_bits() >> 23) as i32 - 126).max(-15);
+        let steps = self.0.map(|color| (color / 2f32.powi(exponent - 9)).round() as u32);
+        steps[0] | steps[1] << 9 | steps[2] << 18 | ((exponent + 15) as u32) << 27
     }
 
-    fn of(texel: ChannelTexel, channel: usize) -> Self {
-        let [first, second] = [texel.halves[2 * channel], texel.halves[2 * channel + 1]];
-        Self([first, first >> 16, second].map(|bits| half::f16::from_bits(bits as u16).to_f32()))
+    fn texel(self) -> [u32; 4] {
+        [self.word(), self.word(), self.word(), 0]
+    }
+
+    fn of(word: u32) -> Self {
+        let unit = 2f32.powi((word >> 27) as i32 - 24);
+        Self([word, word >> 9, word >> 18].map(|bits| (bits & 511) as f32 * unit))
     }
 }
 
-fn half(value: f32) -> u32 {
-    half::f16::from_f32(value).to_bits().into()
+/// Luminance as [`LuminanceTexel`] has it, the same three times.
+fn luminance_word(luminance: f32, is_again: bool) -> u32 {
+    let exponent = ((luminance.to_bits() >> 23) as i32 - 119).clamp(0, 15);
+    let steps = (luminance * 2f32.powi(16 - exponent) + 0.5).min(511.0) as u32;
+    steps | steps << 9 | steps << 18 | (exponent as u32) << 27 | u32::from(is_again) << 31
+}
+
+/// What a denoiser has made of a frame.
+struct Clean {
+    colors: Vec<[u32; 4]>,
+    deviations: Vec<u32>,
+}
+
+impl Clean {
+    fn light(&self, texel: usize, channel: usize) -> Light {
+        Light::of(self.colors[texel][channel])
+    }
+
+    fn lights(&self, channel: usize) -> impl Iterator<Item = f32> {
+        (0..TEXELS).map(move |texel| self.light(texel, channel).0[0])
+    }
 }
 
 /// What a denoiser makes of frames of one window.
@@ -134,12 +158,7 @@ impl Subject {
 
     /// A frame of the light that texels have in a frame, which shows these guides, nothing having moved. Where older numbers are used
     /// again, the light is of the frame before if `repeats`. Returns what the denoiser makes of it.
-    fn frame(
-        &mut self,
-        guides: &[GuideTexel],
-        repeats: bool,
-        light: impl Fn(usize, u32) -> Light,
-    ) -> Vec<ChannelTexel> {
+    fn frame(&mut self, guides: &[GuideTexel], repeats: bool, light: impl Fn(usize, u32) -> Light) -> Clean {
         let parity = self.parity();
         let depth = |guide: &GuideTexel| if self.frame > 0 { guide.depth } else { 0.0 };
         let motions: Vec<_> =
@@ -147,7 +166,7 @@ impl Subject {
         self.stores.fill(&self.gpu, Store::Guides, parity, bytemuck::cast_slice(guides));
         self.stores.fill(&self.gpu, Store::Motions, parity, bytemuck::cast_slice(&motions));
         if self.frame == 0 {
-            self.stores.fill(&self.gpu, Store::Luminances, parity, &[0; 8 * TEXELS]);
+            self.stores.fill(&self.gpu, Store::Luminances, parity, &[0; 4 * TEXELS]);
         }
         let record = self.record();
         self.steps(&self.plan.before_light, &record);
@@ -156,10 +175,11 @@ impl Subject {
             Some(before) if repeats => light(before, self.frame - 1),
             _ => light(texel, self.frame),
         };
-        let noisy: Vec<_> = (0..TEXELS).map(|texel| traced(texel).texel()).collect();
+        let mut noisy: Vec<_> = (0..TEXELS).flat_map(|texel| traced(texel).texel()).collect();
+        noisy.resize(5 * TEXELS, 0);
         let luminances: Vec<_> = (0..TEXELS)
-            .map(|texel| (half(traced(texel).luminance()), half(again[texel].map_or(0.0, |_| 1.0))))
-            .map(|(bits, again)| LuminanceTexel { halves: [bits | bits << 16, bits | again << 16] })
+            .map(|texel| luminance_word(traced(texel).luminance(), again[texel].is_some()))
+            .map(|word| LuminanceTexel { word })
             .collect();
         self.stores.fill(&self.gpu, Store::Noisy, parity, bytemuck::cast_slice(&noisy));
         self.stores.fill(&self.gpu, Store::Luminances, parity, bytemuck::cast_slice(&luminances));
@@ -168,7 +188,11 @@ impl Subject {
         let output = self.stores.read(&self.gpu, self.plan.output.unwrap(), parity);
         self.frame += 1;
         assert_valid();
-        bytemuck::pod_collect_to_vec(&output)
+        let (colors, deviations) = output.split_at(16 * TEXELS);
+        Clean {
+            colors: bytemuck::pod_collect_to_vec(colors),
+            deviations: bytemuck::pod_collect_to_vec(deviations),
+        }
     }
 }
 
@@ -196,17 +220,17 @@ fn constant_light_stays_as_it_is() {
         })
         .collect();
     for denoiser in DENOISERS {
-        for constant in [[0.75, 0.5, 0.125], [4096.0, 1.0, 0.0], [6.103_515_6e-5; 3]] {
+        for constant in [[0.75, 0.5, 0.125], [4096.0, 2048.0, 0.0], [6.103_515_6e-5; 3]] {
             let mut subject = Subject::new(denoiser);
             for frame in 0..6 {
                 let clean = subject.frame(&guides, true, |_, _| Light(constant));
-                for (texel, guide) in clean.iter().zip(&guides).filter(|(_, guide)| guide.depth > 0.0) {
+                for (texel, guide) in guides.iter().enumerate().filter(|(_, guide)| guide.depth > 0.0) {
                     for channel in 0..3 {
-                        let found = Light::of(*texel, channel);
+                        let found = clean.light(texel, channel);
                         assert_eq!(found, Light(constant), "{denoiser:?}, frame {frame}, {guide:?}");
                     }
                     // No sample differs from another.
-                    assert_eq!(texel.halves[1] >> 16, 0, "{denoiser:?}, frame {frame}");
+                    assert_eq!(clean.deviations[texel], 0, "{denoiser:?}, frame {frame}");
                 }
             }
         }
@@ -222,7 +246,7 @@ fn noise_goes_and_its_mean_stays() {
             // Few bright samples, as paths have them; the mean is 1.
             let light = |texel, frame| Light([if noise(texel, frame) < 0.25 { 4.0 } else { 0.0 }; 3]);
             let clean = subject.frame(&wall(), true, light);
-            let direct: Vec<_> = clean.iter().map(|texel| f64::from(Light::of(*texel, 0).0[0])).collect();
+            let direct: Vec<_> = clean.lights(0).map(f64::from).collect();
             let mean = direct.iter().sum::<f64>() / TEXELS as f64;
             let error =
                 (direct.iter().map(|value| (value - 1.0).powi(2)).sum::<f64>() / TEXELS as f64).sqrt();
@@ -243,12 +267,13 @@ fn noise_goes_and_its_mean_stays() {
 fn light_that_changes_is_believed_at_once_by_gradients_alone() {
     let after_change = |denoiser| {
         let mut subject = Subject::new(denoiser);
-        let mut last = Vec::new();
+        let mut mean = 0.0;
         for frame in 0..20 {
             let bright = if frame < 18 { 1.0 } else { 0.125 };
-            last = subject.frame(&wall(), false, |_, _| Light([bright; 3]));
+            let clean = subject.frame(&wall(), false, |_, _| Light([bright; 3]));
+            mean = clean.lights(2).map(f64::from).sum::<f64>() / TEXELS as f64;
         }
-        last.iter().map(|texel| f64::from(Light::of(*texel, 1).0[0])).sum::<f64>() / TEXELS as f64
+        mean
     };
     let [svgf, asvgf] = DENOISERS.map(after_change);
     assert!(svgf > 0.7, "{svgf}");
@@ -272,8 +297,7 @@ fn edges_between_surfaces_stay() {
                 Light([mean * 2.0 * noise(texel, frame); 3])
             };
             let clean = subject.frame(&guides, true, light);
-            for (texel, found) in clean.iter().enumerate() {
-                let found = Light::of(*found, 2).0[0];
+            for (texel, found) in clean.lights(1).enumerate() {
                 assert!(is_left(texel) == (found > 0.3), "{denoiser:?}, frame {frame}: {found}");
             }
         }

@@ -53,6 +53,8 @@ struct Bytes {
     transient: u64,
     transient_unaliased: u64,
     persistent: u64,
+    /// Of what is as large as the window and belongs to traced frames, the window itself included.
+    screen: u64,
 }
 
 #[derive(Debug, Serialize)]
@@ -119,6 +121,7 @@ impl Report {
                 transient: rendered.bytes.transient_unaliased,
                 transient_unaliased: rendered.bytes.transient_unaliased,
                 persistent: rendered.bytes.persistent + rendered.bytes.imported,
+                screen: rendered.traced.map_or(0, |traced| traced.screen_bytes),
             },
             draws: rendered.draws,
         });

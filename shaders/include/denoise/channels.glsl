@@ -45,13 +45,22 @@ uint64_t deviations_of(ViewRecord view, uint64_t channels) {
     return channels + uint64_t(view.light_width * view.light_height) * 16ul;
 }
 
+vec3 unpack_deviations(uint word) {
+    return vec3(unpack_logarithm(word & 255u), unpack_logarithm((word >> 8) & 255u), unpack_logarithm((word >> 16) & 255u));
+}
+
+// Deviations of a texel's direct, indirect and specular light alone.
+vec3 read_deviations(ViewRecord view, uint64_t channels, uint index) {
+    return unpack_deviations(DeviationTexels(deviations_of(view, channels)).words[index]);
+}
+
 Lit read_lit(ViewRecord view, uint64_t channels, uint index) {
     uvec4 words = ColorTexels(channels).words[index];
-    uint deviation = DeviationTexels(deviations_of(view, channels)).words[index];
+    vec3 deviation = read_deviations(view, channels, index);
     Lit light;
-    light.direct = vec4(unpack_shared_exponent(words.x), unpack_logarithm(deviation & 255u));
-    light.specular = vec4(unpack_shared_exponent(words.y), unpack_logarithm((deviation >> 16) & 255u));
-    light.indirect = vec4(unpack_shared_exponent(words.z), unpack_logarithm((deviation >> 8) & 255u));
+    light.direct = vec4(unpack_shared_exponent(words.x), deviation.x);
+    light.specular = vec4(unpack_shared_exponent(words.y), deviation.z);
+    light.indirect = vec4(unpack_shared_exponent(words.z), deviation.y);
     float scale = MOST_TOWARDS * luminance(light.indirect.rgb);
     light.towards = vec4(unpackSnorm4x8(words.w).xyz * scale, unpack_logarithm(words.w >> 24));
     return light;

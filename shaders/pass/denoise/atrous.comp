@@ -19,8 +19,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 
-// Weights of taps by how many of x and y are not 0.
-const float KERNEL[3] = float[3](0.25, 0.125, 0.0625);
 // How far from the plane of the middle a surface may lie, in distances between taps.
 const float PLANE_TOLERANCE = 1.5;
 // Standard deviations by which direct, indirect and specular light may differ; twice as many where one frame alone says what they are.
@@ -29,19 +27,28 @@ const vec3 DEVIATIONS = vec3(2.0, 2.5, 2.0);
 const float LONG = 12.0;
 const float SHORT = 4.0;
 
+// Share of a light below which what differs is not seen: nothing is filtered there.
+const float UNSEEN = 4e-3;
+
 vec3 lengths_of(GuideTexel guide) {
     return vec3(max(guide_lengths(guide), uvec3(1u)));
 }
 
-// The deviation of what is shown: before the first step, a sample's over the root of the history's length.
-vec3 known_to(Lit light, GuideTexel guide) {
-    return push.step == 1u ? deviations(light) * inversesqrt(lengths_of(guide)) : deviations(light);
+// The variance of what is shown: before the first step, a sample's over the history's length.
+vec3 variance_of(Lit light, GuideTexel guide) {
+    vec3 variance = deviations(light) * deviations(light);
+    return push.step == 1u ? variance / lengths_of(guide) : variance;
 }
 
-// The middle's deviations, those around it taken in where they are single samples' still.
+// Weight of a tap without what lies there.
+float kernel(ivec2 offset) {
+    return (offset.x == 0 ? 0.5 : 0.25) * (offset.y == 0 ? 0.5 : 0.25);
+}
+
+// The variances of what is shown around a texel, where they are single samples' still.
 vec3 smoothed(ViewRecord view, ivec2 texel, GuideTexel guide, vec3 own) {
-    vec3 sum = own * own * KERNEL[0];
-    float weights = KERNEL[0];
+    vec3 sum = 0.25 * own;
+    float weights = 0.25;
     [[dont_unroll]] for (int i = 0; i < 9; ++i) {
         ivec2 offset = ivec2(i % 3, i / 3) - 1;
         ivec2 at = texel + offset;
@@ -50,23 +57,100 @@ vec3 smoothed(ViewRecord view, ivec2 texel, GuideTexel guide, vec3 own) {
         }
         uint tap = light_index(view, at);
         GuideTexel other = Guides(view.guides).entries[tap];
-        if (!is_same_class(guide, other)) {
-            continue;
+        if (is_same_class(guide, other)) {
+            vec3 theirs = read_deviations(view, push.source, tap);
+            sum += kernel(offset) * theirs * theirs / lengths_of(other);
+            weights += kernel(offset);
         }
-        vec3 theirs = known_to(read_lit(view, push.source, tap), other);
-        float weight = KERNEL[abs(offset.x) + abs(offset.y)];
-        sum += weight * theirs * theirs;
-        weights += weight;
     }
-    return sqrt(sum / weights);
+    return sum / weights;
 }
 
+// By how much a direction counts for direct, indirect and specular light.
 vec3 powers(float facing, float roughness) {
     float p2 = facing * facing;
     float p4 = p2 * p2;
     float p8 = p4 * p4;
     float p32 = p8 * p8 * p8 * p8;
     return vec3(p32, p8, mix(p32 * p32, p32, roughness));
+}
+
+// What goes for all taps of a texel.
+struct Middle {
+    GuideTexel guide;
+    vec3 luminances;
+    vec3 scale;     // of differences of luminance; below 0 where a channel is not filtered
+    vec3 normal;
+    vec3 across;    // along the normal, what a texel shows lies at its depth times a plane of the texel's place,
+    float along;    // or, where pixels look side by side, at the sum of both
+    float height;
+    float tolerance;
+    float roughness;
+};
+
+struct Sums {
+    Lit light;
+    vec3 weights;
+    vec3 squares;  // of weights, times variances
+    vec3 samples;  // variances by weight
+};
+
+void add_tap(ViewRecord view, Middle middle, ivec2 at, float kernel_weight, inout Sums sums) {
+    uint tap = light_index(view, at);
+    GuideTexel other = Guides(view.guides).entries[tap];
+    if (!is_same_class(middle.guide, other)) {
+        return;
+    }
+    float from_plane = dot(middle.across, vec3(1.0, vec2(pixel_of_light(view, uvec2(at)))));
+    from_plane = abs((middle.along == 0.0 ? from_plane * other.depth : from_plane + middle.along * other.depth) - middle.height);
+    float near = kernel_weight * max(1.0 - from_plane * middle.tolerance, 0.0);
+    if (near == 0.0) {
+        return;
+    }
+    vec3 weight = vec3(near);
+    // Most of what is flat has one normal.
+    if (other.normal != middle.guide.normal) {
+        weight *= powers(max(dot(middle.normal, unpack_unit_vector(other.normal)), 0.0), middle.roughness);
+    }
+    Lit light = read_lit(view, push.source, tap);
+    weight *= exp2(-abs(luminances(light) - middle.luminances) * middle.scale);
+    weight = mix(weight, vec3(0.0), lessThan(middle.scale, vec3(0.0)));
+    vec3 variance = variance_of(light, other);
+    add_lit(sums.light, light, weight);
+    sums.weights += weight;
+    sums.squares += weight * weight * variance;
+    sums.samples += weight * variance;
+}
+
+Middle middle_of(ViewRecord view, ivec2 texel, GuideTexel guide, Lit light, vec3 own) {
+    Middle middle;
+    middle.guide = guide;
+    middle.luminances = luminances(light);
+    middle.normal = unpack_unit_vector(guide.normal);
+    middle.across = vec3(dot(middle.normal, view.pixel_origin), dot(middle.normal, view.pixel_right), dot(middle.normal, view.pixel_down));
+    middle.along = looks_parallel(view) ? dot(middle.normal, view.forward) : 0.0;
+    float place = dot(middle.across, vec3(1.0, vec2(pixel_of_light(view, uvec2(texel)))));
+    middle.height = middle.along == 0.0 ? place * guide.depth : place + middle.along * guide.depth;
+    middle.tolerance = 1.0 / (PLANE_TOLERANCE * float(push.step) * seen_height(view, guide.depth) * view.light_step.y);
+    middle.roughness = guide_roughness(guide);
+    vec3 deviation = sqrt(push.step == 1u ? smoothed(view, texel, guide, own) : own);
+    deviation *= DEVIATIONS * (1.0 + 1.0 / lengths_of(guide));
+    bvec3 is_seen = greaterThan(deviation, UNSEEN * middle.luminances);
+    // Highlights of smooth surfaces show what is mirrored, which no surface guides.
+    bool has_specular = push.step == 1u || middle.roughness * middle.roughness * 32.0 >= float(push.step);
+    is_seen.z = is_seen.z && has_specular;
+    // Nine bits differ by five thousandths of themselves without a reason. Exponents are of 2.
+    middle.scale = mix(vec3(-1.0), 1.4427 / (deviation + 5e-3 * middle.luminances + 1e-6), is_seen);
+    return middle;
+}
+
+// The history keeps the deviation of samples.
+void keep(ViewRecord view, uint index, GuideTexel guide, Lit middle, Sums sums, Lit filtered) {
+    vec3 lengths = lengths_of(guide);
+    Lit kept = mixed(middle, filtered, clamp((LONG - lengths) / (LONG - SHORT), 0.0, 1.0));
+    set_deviations(kept, sqrt(sums.samples / sums.weights * lengths));
+    float random = float(hash(index ^ hash(view.frame_number + 0x51edu)) >> 8) / 16777216.0;
+    write_lit(view, view.history, index, kept, random);
 }
 
 void main() {
@@ -77,68 +161,34 @@ void main() {
     }
     uint index = light_index(view, texel);
     GuideTexel guide = Guides(view.guides).entries[index];
-    Lit middle = read_lit(view, push.source, index);
     if (guide.depth == 0.0) {
-        write_lit(view, push.target, index, middle, 0.5);
+        write_lit(view, push.target, index, no_light_there(), 0.5);
         if (push.step == 1u) {
-            write_lit(view, view.history, index, middle, 0.5);
+            write_lit(view, view.history, index, no_light_there(), 0.5);
         }
         return;
     }
-    vec3 normal = unpack_unit_vector(guide.normal);
-    vec3 position = seen_position(view, vec2(pixel_of_light(view, uvec2(texel))), guide.depth);
-    // Along the normal, what a texel shows lies at its depth times a plane of the texel's place, or at the sum of both.
-    vec3 across = vec3(dot(normal, view.pixel_origin), dot(normal, view.pixel_right), dot(normal, view.pixel_down));
-    float along = looks_parallel(view) ? dot(normal, view.forward) : 0.0;
-    float height = dot(normal, position);
-    float tolerance = 1.0 / (PLANE_TOLERANCE * float(push.step) * seen_height(view, guide.depth) * view.light_step.y);
-    float roughness = guide_roughness(guide);
-    vec3 own = known_to(middle, guide);
-    vec3 deviation = push.step == 1u ? smoothed(view, texel, guide, own) : own;
-    vec3 brightness = luminances(middle);
-    // Half floats differ by a thousandth of themselves without a reason.
-    vec3 scale = 1.0 / (DEVIATIONS * (1.0 + 1.0 / lengths_of(guide)) * deviation + 2e-3 * brightness + 1e-6);
-    Lit sum = no_light_there();
-    vec3 weights = vec3(KERNEL[0]);
-    vec3 squares = own * own * KERNEL[0] * KERNEL[0];
-    vec3 samples = deviations(middle) * deviations(middle) * KERNEL[0];
-    add_lit(sum, middle, weights);
-    // Highlights of smooth surfaces show what is mirrored, which no surface guides.
-    float specular_reach = push.step > 1u && roughness * roughness * 32.0 < float(push.step) ? 0.0 : 1.0;
-    [[dont_unroll]] for (int i = 0; i < 9; ++i) {
-        ivec2 offset = ivec2(i % 3, i / 3) - 1;
-        ivec2 at = texel + offset * int(push.step);
-        if (i == 4 || !is_in_light(view, at)) {
-            continue;
+    Lit light = read_lit(view, push.source, index);
+    vec3 own = variance_of(light, guide);
+    Middle middle = middle_of(view, texel, guide, light, own);
+    Sums sums = Sums(no_light_there(), vec3(0.25), 0.0625 * own, 0.25 * own);
+    add_lit(sums.light, light, vec3(0.25));
+    if (any(greaterThan(middle.scale, vec3(0.0)))) {
+        [[dont_unroll]] for (int y = -1; y <= 1; ++y) {
+            [[unroll]] for (int x = -1; x <= 1; ++x) {
+                ivec2 at = texel + int(push.step) * ivec2(x, y);
+                if ((x != 0 || y != 0) && is_in_light(view, at)) {
+                    add_tap(view, middle, at, kernel(ivec2(x, y)), sums);
+                }
+            }
         }
-        uint tap = light_index(view, at);
-        GuideTexel other = Guides(view.guides).entries[tap];
-        if (!is_same_class(guide, other)) {
-            continue;
-        }
-        float place = dot(across, vec3(1.0, vec2(pixel_of_light(view, uvec2(at)))));
-        float from_plane = abs((along == 0.0 ? place * other.depth : place + along * other.depth) - height);
-        float facing = max(dot(normal, unpack_unit_vector(other.normal)), 0.0);
-        float near = KERNEL[abs(offset.x) + abs(offset.y)] * max(1.0 - from_plane * tolerance, 0.0);
-        if (!(near * facing > 0.0)) {
-            continue;
-        }
-        Lit light = read_lit(view, push.source, tap);
-        vec3 weight = near * powers(facing, roughness) * exp(-abs(luminances(light) - brightness) * scale);
-        weight.z *= specular_reach;
-        vec3 theirs = known_to(light, other);
-        add_lit(sum, light, weight);
-        weights += weight;
-        squares += weight * weight * theirs * theirs;
-        samples += weight * deviations(light) * deviations(light);
+        divide_lit(sums.light, sums.weights);
+    } else {
+        sums.light = light;
     }
-    divide_lit(sum, weights);
     if (push.step == 1u) {
-        Lit kept = mixed(middle, sum, clamp((LONG - lengths_of(guide)) / (LONG - SHORT), 0.0, 1.0));
-        set_deviations(kept, sqrt(samples / weights));
-        float random = float(hash(index ^ hash(view.frame_number + 0x51edu)) >> 8) / 16777216.0;
-        write_lit(view, view.history, index, kept, random);
+        keep(view, index, guide, light, sums, sums.light);
     }
-    set_deviations(sum, sqrt(squares) / weights);
-    write_lit(view, push.target, index, sum, 0.5);
+    set_deviations(sums.light, sqrt(sums.squares) / sums.weights);
+    write_lit(view, push.target, index, sums.light, 0.5);
 }

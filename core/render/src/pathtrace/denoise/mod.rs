@@ -17,6 +17,7 @@ use afterglow_gpu::{BindlessTable, ComputeDesc, ComputePipeline, Gpu, GpuError};
 use afterglow_records::ViewPush;
 use afterglow_shaders as shaders;
 
+use super::pipelines::pixel_groups;
 use super::schedule::ViewNeeds;
 
 /// What makes pictures of few samples.
@@ -116,11 +117,13 @@ impl Stage {
         }
     }
 
-    /// Texels of light along a side of what a thread makes.
-    pub(crate) fn edge(self) -> u32 {
+    /// Workgroups for so many texels of light.
+    pub(crate) fn groups(self, size: [u32; 2]) -> [u32; 2] {
         match self {
-            Stage::Select | Stage::Gradient | Stage::Spread => stores::STRATUM_EDGE,
-            Stage::Temporal | Stage::Atrous => 1,
+            Stage::Select | Stage::Gradient | Stage::Spread => {
+                pixel_groups(size.map(|side| side.div_ceil(stores::STRATUM_EDGE)))
+            }
+            Stage::Temporal | Stage::Atrous => pixel_groups(size),
         }
     }
 }

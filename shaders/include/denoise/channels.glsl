@@ -54,16 +54,29 @@ vec3 read_deviations(ViewRecord view, uint64_t channels, uint index) {
     return unpack_deviations(DeviationTexels(deviations_of(view, channels)).words[index]);
 }
 
-Lit read_lit(ViewRecord view, uint64_t channels, uint index) {
-    uvec4 words = ColorTexels(channels).words[index];
-    vec3 deviation = read_deviations(view, channels, index);
+// As it is stored: what is read of several texels can be asked for before any of it is there.
+struct PackedLit {
+    uvec4 colors;
+    uint deviations;
+};
+
+PackedLit read_packed(ViewRecord view, uint64_t channels, uint index) {
+    return PackedLit(ColorTexels(channels).words[index], DeviationTexels(deviations_of(view, channels)).words[index]);
+}
+
+Lit unpack_lit(PackedLit texel) {
+    vec3 deviation = unpack_deviations(texel.deviations);
     Lit light;
-    light.direct = vec4(unpack_shared_exponent(words.x), deviation.x);
-    light.specular = vec4(unpack_shared_exponent(words.y), deviation.z);
-    light.indirect = vec4(unpack_shared_exponent(words.z), deviation.y);
+    light.direct = vec4(unpack_shared_exponent(texel.colors.x), deviation.x);
+    light.specular = vec4(unpack_shared_exponent(texel.colors.y), deviation.z);
+    light.indirect = vec4(unpack_shared_exponent(texel.colors.z), deviation.y);
     float scale = MOST_TOWARDS * luminance(light.indirect.rgb);
-    light.towards = vec4(unpackSnorm4x8(words.w).xyz * scale, unpack_logarithm(words.w >> 24));
+    light.towards = vec4(unpackSnorm4x8(texel.colors.w).xyz * scale, unpack_logarithm(texel.colors.w >> 24));
     return light;
+}
+
+Lit read_lit(ViewRecord view, uint64_t channels, uint index) {
+    return unpack_lit(read_packed(view, channels, index));
 }
 
 // `random` of [0, 1) rounds, so that the mean is kept: small steps of what is kept from frame to frame are not lost. 0.5 rounds to the

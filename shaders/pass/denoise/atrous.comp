@@ -95,24 +95,13 @@ struct Sums {
     vec3 samples;  // variances by weight
 };
 
-void add_tap(ViewRecord view, Middle middle, ivec2 at, float kernel_weight, inout Sums sums) {
-    uint tap = light_index(view, at);
-    GuideTexel other = Guides(view.guides).entries[tap];
-    if (!is_same_class(middle.guide, other)) {
-        return;
-    }
+// `kernel_weight` is 0 for a tap beyond the picture.
+void add_tap(ViewRecord view, Middle middle, ivec2 at, GuideTexel other, PackedLit texel, float kernel_weight, inout Sums sums) {
     float from_plane = dot(middle.across, vec3(1.0, vec2(pixel_of_light(view, uvec2(at)))));
     from_plane = abs((middle.along == 0.0 ? from_plane * other.depth : from_plane + middle.along * other.depth) - middle.height);
-    float near = kernel_weight * max(1.0 - from_plane * middle.tolerance, 0.0);
-    if (near == 0.0) {
-        return;
-    }
-    vec3 weight = vec3(near);
-    // Most of what is flat has one normal.
-    if (other.normal != middle.guide.normal) {
-        weight *= powers(max(dot(middle.normal, unpack_unit_vector(other.normal)), 0.0), middle.roughness);
-    }
-    Lit light = read_lit(view, push.source, tap);
+    float near = is_same_class(middle.guide, other) ? kernel_weight * max(1.0 - from_plane * middle.tolerance, 0.0) : 0.0;
+    vec3 weight = near * powers(max(dot(middle.normal, unpack_unit_vector(other.normal)), 0.0), middle.roughness);
+    Lit light = unpack_lit(texel);
     weight *= exp2(-abs(luminances(light) - middle.luminances) * middle.scale);
     weight = mix(weight, vec3(0.0), lessThan(middle.scale, vec3(0.0)));
     vec3 variance = variance_of(light, other);
@@ -120,6 +109,26 @@ void add_tap(ViewRecord view, Middle middle, ivec2 at, float kernel_weight, inou
     sums.weights += weight;
     sums.squares += weight * weight * variance;
     sums.samples += weight * variance;
+}
+
+// Adds three taps side by side: all that they read is asked for at once.
+void add_row(ViewRecord view, Middle middle, ivec2 texel, int y, inout Sums sums) {
+    GuideTexel guides[3];
+    PackedLit texels[3];
+    ivec2 places[3];
+    float weights[3];
+    [[unroll]] for (int i = 0; i < 3; ++i) {
+        ivec2 offset = ivec2(i - 1, y);
+        ivec2 at = texel + int(push.step) * offset;
+        places[i] = clamp(at, ivec2(0), ivec2(light_size(view)) - 1);
+        weights[i] = places[i] == at && offset != ivec2(0) ? kernel(offset) : 0.0;
+        uint tap = light_index(view, places[i]);
+        guides[i] = Guides(view.guides).entries[tap];
+        texels[i] = read_packed(view, push.source, tap);
+    }
+    [[unroll]] for (int i = 0; i < 3; ++i) {
+        add_tap(view, middle, places[i], guides[i], texels[i], weights[i], sums);
+    }
 }
 
 Middle middle_of(ViewRecord view, ivec2 texel, GuideTexel guide, Lit light, vec3 own) {
@@ -175,12 +184,7 @@ void main() {
     add_lit(sums.light, light, vec3(0.25));
     if (any(greaterThan(middle.scale, vec3(0.0)))) {
         [[dont_unroll]] for (int y = -1; y <= 1; ++y) {
-            [[unroll]] for (int x = -1; x <= 1; ++x) {
-                ivec2 at = texel + int(push.step) * ivec2(x, y);
-                if ((x != 0 || y != 0) && is_in_light(view, at)) {
-                    add_tap(view, middle, at, kernel(ivec2(x, y)), sums);
-                }
-            }
+            add_row(view, middle, texel, y, sums);
         }
         divide_lit(sums.light, sums.weights);
     } else {

@@ -284,6 +284,9 @@ shared_struct! {
         pub depth_before: [f32; 4],
         /// Frames that direct, indirect and specular light are gathered over, at most.
         pub longest: [f32; 3],
+        /// Samples that may be spent in a frame on texels whose history is short, besides all others, and on one of them.
+        pub spare_samples: u32,
+        pub most_spare_samples: u32,
         /// What is added to positions of the frame before to be relative to this one's camera.
         pub origin_before: [f32; 3],
         /// Frames traced before this one.
@@ -349,7 +352,8 @@ shared_struct! {
         /// Shading normal, octahedral, two snorm16.
         pub normal: u32,
         /// From the lowest bit: three times six bits of frames that direct, indirect and specular light were gathered over, two
-        /// bits for kinds of surfaces that must not be mixed, four of roughness, eight of what moves (see guide.glsl).
+        /// bits for kinds of surfaces that must not be mixed, four of roughness, seven of what moves, one of texels that may have more
+        /// samples (see guide.glsl).
         pub bits: u32,
     }
 }
@@ -429,6 +433,9 @@ shared_struct! {
         pub removed: u32,
         /// Rays.
         pub rays: u32,
+        /// Texels of light whose history is short, and which may have more samples.
+        pub needy: u32,
+        pub padding: u32,
     }
 }
 

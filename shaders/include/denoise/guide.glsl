@@ -35,8 +35,8 @@ uint guide_class(uint kind) {
 }
 
 GuideTexel new_guide(float depth, uint normal, uint kind, float roughness, uint object) {
-    // Of what moves the numbers are 1 to 255.
-    uint mover = object == 0u ? 0u : 1u + object % 255u;
+    // Of what moves the numbers are 1 to 127.
+    uint mover = object == 0u ? 0u : 1u + object % 127u;
     uint rough = uint(clamp(roughness, 0.0, 1.0) * 15.0 + 0.5);
     return GuideTexel(depth, normal, guide_class(kind) << 18 | rough << 20 | mover << 24);
 }
@@ -54,12 +54,15 @@ float guide_roughness(GuideTexel guide) {
     return float((guide.bits >> 20) & 15u) / 15.0;
 }
 
+// Whether a texel may have more samples, because little is known of its light.
+#define NEEDY_BIT (1u << 31)
+
 bool is_same_class(GuideTexel a, GuideTexel b) {
     return ((a.bits ^ b.bits) & (3u << 18)) == 0u;
 }
 
 bool is_same_object(GuideTexel a, GuideTexel b) {
-    return ((a.bits ^ b.bits) & (3u << 18 | 255u << 24)) == 0u;
+    return ((a.bits ^ b.bits) & (3u << 18 | 127u << 24)) == 0u;
 }
 
 // How much farther the neighbouring texel of the same plane may be, by which way it faces: a texel's height over the cosine.

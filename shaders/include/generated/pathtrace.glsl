@@ -80,7 +80,7 @@ struct LightNode { // 64 bytes
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 552 bytes
+struct ViewRecord { // 560 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
@@ -148,6 +148,8 @@ struct ViewRecord { // 552 bytes
     mat4 clip_before;
     vec4 depth_before;
     vec3 longest;
+    uint spare_samples;
+    uint most_spare_samples;
     vec3 origin_before;
     uint frame_number;
     uint padding;
@@ -236,11 +238,13 @@ struct RadianceTexel { // 24 bytes
 
 #ifndef STRUCT_TraceCounters
 #define STRUCT_TraceCounters
-struct TraceCounters { // 16 bytes
+struct TraceCounters { // 24 bytes
     uint non_finite;
     uint limited;
     uint removed;
     uint rays;
+    uint needy;
+    uint padding;
 };
 #endif
 

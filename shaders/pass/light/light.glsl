@@ -120,7 +120,7 @@ RayPlan plan_seen(ViewRecord view, inout Path path, PathRandom random, uvec2 pix
 }
 
 // The samples of a pixel. `seen` reflects what it is asked for: its albedo meets the light when the picture is made.
-Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mask, Random numbers) {
+Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mask, Random numbers, uint samples) {
     Sums sums = Sums(no_channels(), vec3(0.0), vec3(0.0), vec2(0.0), Shade(0.0, vec3(0.0), vec3(0.0)));
     bool is_baked = kind == SURFACE_BAKED;
     PathRandom random = PathRandom(numbers, view.seed);
@@ -131,7 +131,7 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
     RayPlan asked = RayPlan(seen.normal, 0.0, true, false, vec3(0.0), vec3(0.0), 0.0, false);
     uint done = 0u;
     uint rays = 0u;
-    [[dont_unroll]] for (uint i = view.samples * most_rays(view); i != 0u && done < view.samples; --i) {
+    [[dont_unroll]] for (uint i = samples * most_rays(view); i != 0u && done < samples; --i) {
         RayPlan plan;
         if (is_baked) {
             plan = plan_shade(view, path, random, asked);
@@ -158,6 +158,10 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
             path = path_from(seen, to_viewer, mask, cone);
             ++random.random.sample_index;
             ++done;
+            if (done == view.samples) {
+                // What is spent besides is of another sequence: the pixel's own goes on in the next frame.
+                random.random.pixel = hash(random.random.pixel);
+            }
         }
     }
     atomicAdd(Counters(view.counters).entries[0].rays, rays);
@@ -166,8 +170,7 @@ Sums gather(ViewRecord view, SurfacePoint seen, uvec2 pixel, uint kind, uint mas
 
 // How much of a baked surface's light is left where moving things take some of it away. The bake adds up as the
 // program stored it, which is not linear light.
-vec3 light_left(ViewRecord view, Shade shade) {
-    float samples = float(view.samples);
+vec3 light_left(ViewRecord view, Shade shade, float samples) {
     vec3 contact = vec3(shade.contact / samples);
     if (view.light_count == 0u) {
         return contact;
@@ -184,17 +187,17 @@ struct Found {
 };
 
 // The mean of a pixel's samples, as composition takes it.
-Found found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel, Random numbers) {
+Found found_light(ViewRecord view, SurfaceTexel surface, uvec2 pixel, Random numbers, uint sample_count) {
     uint kind = surface_kind(surface);
     if (kind == SURFACE_BAKED && view.has_movers == 0u) {
         return Found(LightTexel(vec3(0.0), vec3(1.0), vec3(0.0), vec3(0.0)), 0.0);
     }
     SurfacePoint seen = seen_point(surface);
-    Sums sums = gather(view, seen, pixel, kind, surface_ray_mask(surface), numbers);
+    Sums sums = gather(view, seen, pixel, kind, surface_ray_mask(surface), numbers, sample_count);
+    float samples = float(sample_count);
     if (kind == SURFACE_BAKED) {
-        return Found(LightTexel(vec3(0.0), light_left(view, sums.shade), vec3(0.0), vec3(0.0)), 0.0);
+        return Found(LightTexel(vec3(0.0), light_left(view, sums.shade, samples), vec3(0.0), vec3(0.0)), 0.0);
     }
-    float samples = float(view.samples);
     Channels light = sums.light;
     // What is baked has its constant part everywhere; elsewhere it comes from where nothing is.
     bool is_replaced = kind == SURFACE_LIT && is_relit(view);
@@ -251,6 +254,18 @@ Random texel_numbers(ViewRecord view, uvec2 texel, uint index, out bool is_again
     return own_numbers(view, index, view.first_sample);
 }
 
+// Samples of a texel: some more where little is known of it, as many as there are to spare for so many.
+uint samples_of(ViewRecord view, uint index, bool is_again) {
+    if (view.spare_samples == 0u || view.guides == 0ul || is_again || (Guides(view.guides).entries[index].bits & NEEDY_BIT) == 0u) {
+        return view.samples;
+    }
+    uint needy = max(Counters(view.counters).entries[0].needy, 1u);
+    // What is left over goes to some of them, by chance.
+    uint share = view.spare_samples / needy;
+    bool has_one_more = hash(index ^ hash(view.frame_number)) % needy < view.spare_samples % needy;
+    return view.samples + min(share + (has_one_more ? 1u : 0u), view.most_spare_samples);
+}
+
 // Without a denoiser: samples of frames that do not change add up.
 void keep_exactly(ViewRecord view, uint index, LightTexel light) {
     if (view.accumulated != 0u) {
@@ -276,7 +291,8 @@ void main() {
     Found found = Found(LightTexel(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)), 0.0);
     bool is_again = false;
     if (surface_kind(surface) != SURFACE_NONE) {
-        found = found_light(view, surface, pixel, texel_numbers(view, texel, index, is_again));
+        Random numbers = texel_numbers(view, texel, index, is_again);
+        found = found_light(view, surface, pixel, numbers, samples_of(view, index, is_again));
     }
     LightTexel light = found.light;
     if (view.light != 0ul) {

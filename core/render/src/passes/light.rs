@@ -41,6 +41,9 @@ pub(crate) fn declare(
     if let Some(strata) = views.store(view, Store::Strata) {
         pass.read(strata, views.backend.reads());
     }
+    if let Some(guides) = views.store(view, Store::Guides) {
+        pass.read(guides, views.backend.reads());
+    }
     for store in [Store::Noisy, Store::Luminances] {
         if let Some(resource) = views.store(view, store) {
             pass.write(resource, views.backend.writes());

@@ -285,13 +285,13 @@ pub(crate) fn declare_view(
     let stores = views.stores.get(view).cloned().unwrap_or_default();
     for (number, step) in plan.before_light.iter().enumerate() {
         work.push(TraceWork::BeforeLight(view, number));
-        step.declare(graph, &stores, needs);
+        step.declare(graph, &stores, views.counters, needs);
     }
     work.push(TraceWork::Light(view));
     light::declare(graph, frame, views, view, needs);
     for (number, step) in plan.after_light.iter().enumerate() {
         work.push(TraceWork::AfterLight(view, number));
-        step.declare(graph, &stores, needs);
+        step.declare(graph, &stores, views.counters, needs);
     }
     if needs.has_movers {
         work.push(TraceWork::ClearSums);

@@ -38,7 +38,7 @@ pub(super) fn plan() -> Plan {
     let gradients = BOTH[STEPS % 2];
     let filter = svgf::filter(Some(gradients));
     Plan {
-        before_light: vec![select],
+        before_light: vec![svgf::effort(), select],
         after_light: std::iter::once(gradient).chain(spread).chain(filter).collect(),
         gradients: Some(gradients),
         ..svgf::plan()

@@ -12,7 +12,7 @@ mod tests;
 
 pub(crate) use stores::{Store, StoreResources, Stores};
 
-use afterglow_frame_graph::{Access, GraphBuilder, PassKind};
+use afterglow_frame_graph::{Access, GraphBuilder, PassKind, ResourceId};
 use afterglow_gpu::{BindlessTable, ComputeDesc, ComputePipeline, Gpu, GpuError};
 use afterglow_records::ViewPush;
 use afterglow_shaders as shaders;
@@ -82,6 +82,8 @@ impl Plan {
 /// A pass that denoisers are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stage {
+    /// Which texels may have more samples.
+    Effort,
     /// Which texels are traced with the numbers of the frame before.
     Select,
     /// What has changed there.
@@ -95,10 +97,12 @@ pub(crate) enum Stage {
 }
 
 impl Stage {
-    const ALL: [Stage; 5] = [Stage::Select, Stage::Gradient, Stage::Spread, Stage::Temporal, Stage::Atrous];
+    const ALL: [Stage; 6] =
+        [Stage::Effort, Stage::Select, Stage::Gradient, Stage::Spread, Stage::Temporal, Stage::Atrous];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
+            Stage::Effort => "effort",
             Stage::Select => "gradient samples",
             Stage::Gradient => "gradients",
             Stage::Spread => "gradient filter",
@@ -109,6 +113,7 @@ impl Stage {
 
     fn spirv(self) -> &'static [u32] {
         match self {
+            Stage::Effort => shaders::DENOISE_EFFORT_COMP,
             Stage::Select => shaders::DENOISE_SELECT_COMP,
             Stage::Gradient => shaders::DENOISE_GRADIENT_COMP,
             Stage::Spread => shaders::DENOISE_SPREAD_COMP,
@@ -123,7 +128,7 @@ impl Stage {
             Stage::Select | Stage::Gradient | Stage::Spread => {
                 pixel_groups(size.map(|side| side.div_ceil(stores::STRATUM_EDGE)))
             }
-            Stage::Temporal | Stage::Atrous => pixel_groups(size),
+            Stage::Effort | Stage::Temporal | Stage::Atrous => pixel_groups(size),
         }
     }
 }
@@ -146,7 +151,13 @@ pub(crate) struct Step {
 
 impl Step {
     /// Declares the pass in a frame's graph.
-    pub(crate) fn declare(&self, graph: &mut GraphBuilder, stores: &StoreResources, needs: &ViewNeeds) {
+    pub(crate) fn declare(
+        &self,
+        graph: &mut GraphBuilder,
+        stores: &StoreResources,
+        counters: ResourceId,
+        needs: &ViewNeeds,
+    ) {
         let mut pass = graph.pass(self.stage.name(), PassKind::Compute);
         for store in Store::ALL {
             let Some(resource) = stores.get(store) else { continue };
@@ -157,6 +168,9 @@ impl Step {
                 (false, true) => pass.write(resource, Access::StorageWriteCompute),
                 (false, false) => continue,
             };
+        }
+        if self.stage == Stage::Effort {
+            pass.read_write(counters, Access::StorageWriteCompute);
         }
         pass.when(!needs.is_idle, super::schedule::IDLE_REASON);
     }

@@ -10,11 +10,24 @@ const WAY: [Store; 2] = [Store::Work, Store::Noisy];
 
 pub(super) fn plan() -> Plan {
     Plan {
-        before_light: Vec::new(),
+        before_light: vec![effort()],
         after_light: filter(None),
         output: Some(WAY[STEPS % 2]),
         spare: Some(WAY[(STEPS + 1) % 2]),
         gradients: None,
+    }
+}
+
+/// Which texels may have more samples.
+pub(super) fn effort() -> Step {
+    Step {
+        stage: Stage::Effort,
+        reads: vec![Store::Guides, Store::Motions],
+        past: vec![Store::GuidesBefore],
+        writes: vec![Store::Guides],
+        source: None,
+        target: None,
+        stride: 1,
     }
 }
 

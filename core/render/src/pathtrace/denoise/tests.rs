@@ -216,7 +216,7 @@ fn constant_light_stays_as_it_is() {
         .map(|texel| GuideTexel {
             depth: if texel % 5 == 4 { 0.0 } else { 5.0 + (texel % 3) as f32 },
             normal: (texel % 3) as u32 * 0x2000,
-            bits: (1 + (texel % 2) as u32) << 18 | (texel % 16) as u32 * (1 << 20),
+            bits: (((1 + texel % 2) << 18) | ((texel % 16) << 20)) as u32,
         })
         .collect();
     for denoiser in DENOISERS {

@@ -13,7 +13,7 @@ use clap::Args;
 use crate::failure::Failure;
 use crate::libdir;
 use crate::options::{
-    Baked, DeviceArguments, ImageArguments, KeepArguments, LightArguments, Mode, ProfileArguments, Sky, View,
+    Baked, DeviceArguments, ImageArguments, KeepArguments, LightArguments, Mode, ProfileArguments, Sky,
 };
 
 /// Arguments of `run`.
@@ -39,9 +39,6 @@ pub struct Arguments {
     /// What rays see of the sky that the program draws; `cube` unless it is said
     #[arg(long, value_enum, value_name = "WHAT", env = "AFTERGLOW_SKY")]
     sky: Option<Sky>,
-    /// Show what the light is made of instead of the picture
-    #[arg(long, value_enum, value_name = "VIEW", env = "AFTERGLOW_PAINT")]
-    paint: Option<View>,
     #[command(flatten)]
     images: ImageArguments,
     #[command(flatten)]
@@ -144,7 +141,6 @@ fn said(arguments: &Arguments) -> Vec<(&'static str, String)> {
         ("AFTERGLOW_MEMORY", number(arguments.memory)),
         ("AFTERGLOW_BAKED", arguments.baked.map(|baked| baked.name().to_owned())),
         ("AFTERGLOW_SKY", arguments.sky.map(|sky| sky.name().to_owned())),
-        ("AFTERGLOW_PAINT", arguments.paint.map(|view| view.paint().name().to_owned())),
         ("AFTERGLOW_DEVICE", arguments.device.device.clone()),
         ("AFTERGLOW_KEEP", flag(arguments.keep.keep)),
         ("AFTERGLOW_KEYS", flag(arguments.keys)),
@@ -221,14 +217,27 @@ mod tests {
             let line = ["run"].iter().chain(options).chain(&["--", "game"]);
             said(&<Line as clap::Parser>::try_parse_from(line).unwrap().arguments)
         };
-        let options = ["--preset", "high", "--limit", "inf", "--keys", "no", "--paint", "sky", "--no-filter"];
+        let options = [
+            "--preset",
+            "high",
+            "--limit",
+            "inf",
+            "--keys",
+            "no",
+            "--view",
+            "sky",
+            "--denoiser",
+            "svgf",
+            "--no-antialiasing",
+        ];
         let values = said(&options);
         for (name, value) in [
             ("AFTERGLOW_PRESET", "high"),
             ("AFTERGLOW_LIMIT", "inf"),
             ("AFTERGLOW_KEYS", "0"),
-            ("AFTERGLOW_PAINT", "sky"),
-            ("AFTERGLOW_FILTER", "0"),
+            ("AFTERGLOW_VIEW", "sky"),
+            ("AFTERGLOW_DENOISER", "svgf"),
+            ("AFTERGLOW_ANTIALIASING", "0"),
         ] {
             assert!(values.contains(&(name, value.to_owned())), "{name}: {values:?}");
         }

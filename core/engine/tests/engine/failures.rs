@@ -60,7 +60,11 @@ fn a_traced_picture_comes_back_too() {
     let faults = lost_at(&[8]);
     let mut program = Program::new(Mode::Pathtrace, &faults);
     program.frames(8 + LOST_FRAMES);
-    assert!(program.picture() == undisturbed(Mode::Pathtrace, 8));
+    // Light is gathered anew, so that noise is another.
+    let (picture, expected) = (program.picture(), undisturbed(Mode::Pathtrace, 8));
+    assert_eq!(picture.len(), expected.len());
+    let away: u64 = picture.iter().zip(&expected).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    assert!((away as f64) < 4.0 * picture.len() as f64, "{away} of {} bytes", picture.len());
     assert!(faults.all_struck());
 }
 

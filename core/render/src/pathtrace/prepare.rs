@@ -338,9 +338,12 @@ impl Tracer {
         };
         let mut record = ViewRecord { accumulated, ..common.record };
         if self.plan.output.is_none() {
-            // Each frame has other numbers, but those that add up have one sequence.
-            record.seed ^= self.history[view].begun().wrapping_mul(0x9e37_79b9);
             record.first_sample = accumulated;
+        }
+        if self.plan.output.is_none() && self.mode == Mode::Pathtrace {
+            // Each frame has other numbers, but those that add up have one sequence. Frames of `reference` are complete in
+            // themselves.
+            record.seed ^= self.history[view].begun().wrapping_mul(0x9e37_79b9);
         }
         if let Some(buffers) = &self.buffers {
             name_buffers(&mut record, buffers, &self.plan, self.past.parity(), view, needs.has_history);

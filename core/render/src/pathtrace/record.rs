@@ -108,7 +108,6 @@ impl TraceContext<'_> {
         let (Some(step), Some(stores)) = (step, self.buffers.stores.get(view)) else { return };
         let Some(pipeline) = self.stages.get(step.stage) else { return };
         let push = step.push(self.prepared.views[view].record, stores, self.prepared.parity);
-        let size = stores.size.map(|side| side.div_ceil(step.stage.edge()));
-        run(self.commands, self.table, pipeline, &push, pixel_groups(size));
+        run(self.commands, self.table, pipeline, &push, step.stage.groups(stores.size));
     }
 }

@@ -5,6 +5,7 @@
 //! runs one pass over some of the [`Store`]s; the last one leaves three clean channels. So another one is a file beside `svgf`.
 
 mod asvgf;
+mod bmfr;
 mod stores;
 mod svgf;
 #[cfg(test)]
@@ -17,7 +18,11 @@ use afterglow_gpu::{BindlessTable, ComputeDesc, ComputePipeline, Gpu, GpuError};
 use afterglow_records::ViewPush;
 use afterglow_shaders as shaders;
 
+use super::pipelines::pixel_groups;
 use super::schedule::ViewNeeds;
+
+/// Texels of light along a side of a block, as regress.comp has it.
+const BLOCK_EDGE: u32 = 32;
 
 /// What makes pictures of few samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -29,11 +34,13 @@ pub enum Denoiser {
     /// The same with histories that are as long as light has not changed (Schied, Peters and Dachsbacher, HPG 2018).
     #[default]
     Asvgf,
+    /// Blockwise multi-order feature regression (Koskela and others, ACM TOG 2019) of the same histories.
+    Bmfr,
 }
 
 impl Denoiser {
     /// All of them.
-    pub const ALL: [Denoiser; 3] = [Denoiser::None, Denoiser::Svgf, Denoiser::Asvgf];
+    pub const ALL: [Denoiser; 4] = [Denoiser::None, Denoiser::Svgf, Denoiser::Asvgf, Denoiser::Bmfr];
 
     /// As it is written in options and reports.
     pub fn name(self) -> &'static str {
@@ -41,6 +48,7 @@ impl Denoiser {
             Denoiser::None => "none",
             Denoiser::Svgf => "svgf",
             Denoiser::Asvgf => "asvgf",
+            Denoiser::Bmfr => "bmfr",
         }
     }
 
@@ -50,6 +58,7 @@ impl Denoiser {
             Denoiser::None => Plan::default(),
             Denoiser::Svgf => svgf::plan(),
             Denoiser::Asvgf => asvgf::plan(),
+            Denoiser::Bmfr => bmfr::plan(),
         }
     }
 }
@@ -89,10 +98,13 @@ pub(crate) enum Stage {
     Temporal,
     /// A step of a filter between neighbours.
     Atrous,
+    /// Light as a function of surfaces, block by block.
+    Regress,
 }
 
 impl Stage {
-    const ALL: [Stage; 5] = [Stage::Select, Stage::Gradient, Stage::Spread, Stage::Temporal, Stage::Atrous];
+    const ALL: [Stage; 6] =
+        [Stage::Select, Stage::Gradient, Stage::Spread, Stage::Temporal, Stage::Atrous, Stage::Regress];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -101,6 +113,7 @@ impl Stage {
             Stage::Spread => "gradient filter",
             Stage::Temporal => "temporal filter",
             Stage::Atrous => "spatial filter",
+            Stage::Regress => "regression",
         }
     }
 
@@ -111,14 +124,19 @@ impl Stage {
             Stage::Spread => shaders::DENOISE_SPREAD_COMP,
             Stage::Temporal => shaders::DENOISE_TEMPORAL_COMP,
             Stage::Atrous => shaders::DENOISE_ATROUS_COMP,
+            Stage::Regress => shaders::DENOISE_REGRESS_COMP,
         }
     }
 
-    /// Texels of light along a side of what a thread makes.
-    pub(crate) fn edge(self) -> u32 {
+    /// Workgroups for so many texels of light.
+    pub(crate) fn groups(self, size: [u32; 2]) -> [u32; 2] {
         match self {
-            Stage::Select | Stage::Gradient | Stage::Spread => stores::STRATUM_EDGE,
-            Stage::Temporal | Stage::Atrous => 1,
+            Stage::Select | Stage::Gradient | Stage::Spread => {
+                pixel_groups(size.map(|side| side.div_ceil(stores::STRATUM_EDGE)))
+            }
+            Stage::Temporal | Stage::Atrous => pixel_groups(size),
+            // The first of them begin outside of the picture.
+            Stage::Regress => size.map(|side| side.div_ceil(BLOCK_EDGE) + 1),
         }
     }
 }

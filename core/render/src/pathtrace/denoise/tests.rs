@@ -5,7 +5,7 @@ use afterglow_records::{ChannelTexel, GuideTexel, LuminanceTexel, MotionTexel, S
 use bytemuck::Zeroable;
 
 use super::*;
-use crate::pathtrace::pipelines::{pixel_groups, run};
+use crate::pathtrace::pipelines::run;
 use crate::testing::{assert_valid, gpu};
 
 const SIZE: [u32; 2] = [37, 29];
@@ -106,7 +106,7 @@ impl Subject {
     fn steps(&self, steps: &[Step], record: &Buffer) {
         for step in steps {
             let push = step.push(record.address(), &self.stores, self.parity());
-            let groups = pixel_groups(SIZE.map(|side| side.div_ceil(step.stage.edge())));
+            let groups = step.stage.groups(SIZE);
             let pipeline = self.stages.get(step.stage).unwrap();
             self.gpu
                 .run(|commands: &Commands<'_>| run(commands, &self.table, pipeline, &push, groups))

@@ -11,6 +11,15 @@ pub(super) fn plan() -> Plan {
         stage: Stage::Regress,
         reads: vec![Store::Guides, Store::Work],
         past: Vec::new(),
+        writes: vec![Store::Fits],
+        source: Some(Store::Work),
+        target: None,
+        stride: 1,
+    });
+    plan.after_light.push(Step {
+        stage: Stage::Evaluate,
+        reads: vec![Store::Guides, Store::Work, Store::Fits],
+        past: Vec::new(),
         writes: vec![Store::Noisy, Store::History],
         source: Some(Store::Work),
         target: Some(Store::Noisy),

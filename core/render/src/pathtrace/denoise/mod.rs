@@ -21,8 +21,8 @@ use afterglow_shaders as shaders;
 use super::pipelines::pixel_groups;
 use super::schedule::ViewNeeds;
 
-/// Texels of light along a side of a block, as regress.comp has it.
-const BLOCK_EDGE: u32 = 32;
+/// Texels of light along a side of a workgroup of evaluate.comp.
+const EVALUATED_EDGE: u32 = 16;
 
 /// What makes pictures of few samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -100,11 +100,20 @@ pub(crate) enum Stage {
     Atrous,
     /// Light as a function of surfaces, block by block.
     Regress,
+    /// What that is for each texel.
+    Evaluate,
 }
 
 impl Stage {
-    const ALL: [Stage; 6] =
-        [Stage::Select, Stage::Gradient, Stage::Spread, Stage::Temporal, Stage::Atrous, Stage::Regress];
+    const ALL: [Stage; 7] = [
+        Stage::Select,
+        Stage::Gradient,
+        Stage::Spread,
+        Stage::Temporal,
+        Stage::Atrous,
+        Stage::Regress,
+        Stage::Evaluate,
+    ];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -114,6 +123,7 @@ impl Stage {
             Stage::Temporal => "temporal filter",
             Stage::Atrous => "spatial filter",
             Stage::Regress => "regression",
+            Stage::Evaluate => "fitted light",
         }
     }
 
@@ -125,6 +135,7 @@ impl Stage {
             Stage::Temporal => shaders::DENOISE_TEMPORAL_COMP,
             Stage::Atrous => shaders::DENOISE_ATROUS_COMP,
             Stage::Regress => shaders::DENOISE_REGRESS_COMP,
+            Stage::Evaluate => shaders::DENOISE_EVALUATE_COMP,
         }
     }
 
@@ -135,8 +146,8 @@ impl Stage {
                 pixel_groups(size.map(|side| side.div_ceil(stores::STRATUM_EDGE)))
             }
             Stage::Temporal | Stage::Atrous => pixel_groups(size),
-            // The first of them begin outside of the picture.
-            Stage::Regress => size.map(|side| side.div_ceil(BLOCK_EDGE) + 1),
+            Stage::Regress => stores::blocks(size),
+            Stage::Evaluate => size.map(|side| side.div_ceil(EVALUATED_EDGE)),
         }
     }
 }

@@ -84,6 +84,7 @@ impl Subject {
             strata: address(Store::Strata),
             gradients: self.plan.gradients.map_or(0, address),
             luminances: address(Store::Luminances),
+            fits: address(Store::Fits),
             width: SIZE[0],
             height: SIZE[1],
             light_width: SIZE[0],

@@ -26,8 +26,9 @@ const float NOISE = 2.0;
 const float LONG = 12.0;
 const float SHORT = 4.0;
 
-// Squares of what differs, by channels; -1 where nothing is.
+// Squares of what differs, by channels, and how great noise makes them.
 shared float squares[3 * TILE_EDGE * TILE_EDGE];
+shared float noises[3 * TILE_EDGE * TILE_EDGE];
 shared uint kinds[TILE_EDGE * TILE_EDGE];
 
 void add_fit(ViewRecord view, ivec2 block, Point point, float share, inout Lit sum) {
@@ -69,32 +70,35 @@ void find_squares(ViewRecord view) {
         ivec2 texel = corner + ivec2(number % uint(TILE_EDGE), number / uint(TILE_EDGE));
         Point point = point_at(view, texel);
         vec3 away = vec3(0.0);
+        vec3 deviation = vec3(0.0);
         if (point.kind != 0u) {
             Lit light = read_lit(push.source, point.index);
+            deviation = deviations(light);
             away = luminances(light) - luminances(fitted(view, texel, point, light));
         }
         kinds[number] = point.kind;
         for (uint channel = 0u; channel < 3u; ++channel) {
             squares[3u * number + channel] = away[channel] * away[channel];
+            noises[3u * number + channel] = deviation[channel] * deviation[channel] / point.lengths[channel];
         }
     }
 }
 
 // How much of what differs is kept: what is left of it about a texel when noise is taken away.
-vec3 kept_share(uint kind, vec3 noise) {
+vec3 kept_share(uint kind) {
     vec3 sum = vec3(0.0);
-    float count = 0.0;
+    vec3 noise = vec3(0.0);
     [[dont_unroll]] for (int y = 0; y <= 2 * REACH; ++y) {
         for (int x = 0; x <= 2 * REACH; ++x) {
             ivec2 at = ivec2(gl_LocalInvocationID.xy) + ivec2(x, y);
             int number = at.y * TILE_EDGE + at.x;
             if (kinds[number] == kind) {
                 sum += vec3(squares[3 * number], squares[3 * number + 1], squares[3 * number + 2]);
-                count += 1.0;
+                noise += vec3(noises[3 * number], noises[3 * number + 1], noises[3 * number + 2]);
             }
         }
     }
-    return clamp(1.0 - NOISE * noise / max(sum / count, 1e-12), 0.0, 1.0);
+    return clamp(1.0 - NOISE * noise / max(sum, 1e-12), 0.0, 1.0);
 }
 
 void main() {
@@ -112,9 +116,7 @@ void main() {
         write_lit(view.history, point.index, no_light_there(), 0.5);
         return;
     }
-    vec3 deviation = deviations(light);
-    vec3 share = kept_share(point.kind, deviation * deviation / point.lengths);
-    Lit clean = mixed(fitted(view, texel, point, light), light, share);
+    Lit clean = mixed(fitted(view, texel, point, light), light, kept_share(point.kind));
     write_lit(push.target, point.index, clean, 0.5);
     Lit kept = mixed(light, clean, clamp((LONG - point.lengths) / (LONG - SHORT), 0.0, 1.0));
     float random = float(hash(point.index ^ hash(view.frame_number + 0x51edu)) >> 8) / 16777216.0;

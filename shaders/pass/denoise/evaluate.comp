@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 #define TILE_EDGE (16 + 2 * REACH)
 
 // How much of that is noise, in variances of what was gathered.
-const float NOISE = 2.0;
+const float NOISE = 1.5;
 // Frames from which on a history holds nothing fitted, and frames up to which it holds nothing else.
 const float LONG = 12.0;
 const float SHORT = 4.0;

@@ -28,8 +28,8 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 #define TILE 128u
 
 // What features pay for their size, in texels of each that is summed over, and in texels.
-const float RIDGE = 1e-3;
-const float LEAST_RIDGE = 1.0;
+const float RIDGE = 1e-4;
+const float LEAST_RIDGE = 0.1;
 
 // Rows of features and light.
 shared float rows[TILE * COLUMNS];

@@ -23,6 +23,11 @@ impl Light {
         0.2126 * red + 0.7152 * green + 0.0722 * blue
     }
 
+    /// Whether it is another but for a thousandth.
+    fn is_about(self, other: Self) -> bool {
+        self.0.iter().zip(other.0).all(|(found, wanted)| (found - wanted).abs() <= 1e-3 * wanted)
+    }
+
     fn texel(self) -> ChannelTexel {
         let [red, green, blue] = self.0.map(half);
         ChannelTexel {
@@ -184,7 +189,7 @@ fn noise(texel: usize, frame: u32) -> f32 {
     (bits >> 40) as f32 / (1 << 24) as f32
 }
 
-const DENOISERS: [Denoiser; 2] = [Denoiser::Svgf, Denoiser::Asvgf];
+const DENOISERS: [Denoiser; 3] = [Denoiser::Svgf, Denoiser::Asvgf, Denoiser::Bmfr];
 
 #[test]
 fn constant_light_stays_as_it_is() {
@@ -204,7 +209,12 @@ fn constant_light_stays_as_it_is() {
                 for (texel, guide) in clean.iter().zip(&guides).filter(|(_, guide)| guide.depth > 0.0) {
                     for channel in 0..3 {
                         let found = Light::of(*texel, channel);
-                        assert_eq!(found, Light(constant), "{denoiser:?}, frame {frame}, {guide:?}");
+                        let about = format!("{denoiser:?}, frame {frame}, {guide:?}");
+                        // Fits are sums of what rounding leaves a little off.
+                        match denoiser {
+                            Denoiser::Bmfr => assert!(found.is_about(Light(constant)), "{about}: {found:?}"),
+                            _ => assert_eq!(found, Light(constant), "{about}"),
+                        }
                     }
                     // No sample differs from another.
                     assert_eq!(texel.halves[1] >> 16, 0, "{denoiser:?}, frame {frame}");
@@ -218,7 +228,7 @@ fn constant_light_stays_as_it_is() {
 fn noise_goes_and_its_mean_stays() {
     for denoiser in DENOISERS {
         let mut subject = Subject::new(denoiser);
-        let mut errors = Vec::new();
+        let (mut errors, mut means) = (Vec::new(), Vec::new());
         for frame in 0..24 {
             // Few bright samples, as paths have them; the mean is 1.
             let light = |texel, frame| Light([if noise(texel, frame) < 0.25 { 4.0 } else { 0.0 }; 3]);
@@ -230,11 +240,12 @@ fn noise_goes_and_its_mean_stays() {
             errors.push(error);
             // What is rarely bright is taken for noise where one frame alone says what it is.
             assert!((mean - 1.0).abs() < 0.25, "{denoiser:?}, frame {frame}: {mean}");
-            if frame == 23 {
-                assert!((mean - 1.0).abs() < 0.03, "{denoiser:?}: {mean}");
-            }
+            // A fit's own differences are kept rather where they are bright.
+            let most = if denoiser == Denoiser::Bmfr { 0.05 } else { 0.03 };
+            assert!(frame < 23 || (mean - 1.0).abs() < most, "{denoiser:?}: {mean}");
+            means.push(mean);
         }
-        println!("{denoiser:?}: {errors:.3?}");
+        println!("{denoiser:?}: {errors:.3?}, {means:.3?}");
         // Samples themselves are 1.73 off.
         assert!(errors[0] < 0.5 && errors[23] < 0.1, "{denoiser:?}: {errors:?}");
     }
@@ -251,9 +262,10 @@ fn light_that_changes_is_believed_at_once_by_gradients_alone() {
         }
         last.iter().map(|texel| f64::from(Light::of(*texel, 1).0[0])).sum::<f64>() / TEXELS as f64
     };
-    let [svgf, asvgf] = DENOISERS.map(after_change);
+    let [svgf, asvgf, bmfr] = DENOISERS.map(after_change);
     assert!(svgf > 0.7, "{svgf}");
     assert!((asvgf - 0.125).abs() < 0.01, "{asvgf}");
+    assert!((bmfr - 0.125).abs() < 0.01, "{bmfr}");
 }
 
 #[test]
@@ -279,4 +291,59 @@ fn edges_between_surfaces_stay() {
             }
         }
     }
+}
+
+#[test]
+fn where_nothing_is_there_is_no_light() {
+    let nothing = vec![GuideTexel { depth: 0.0, ..wall()[0] }; TEXELS];
+    for denoiser in DENOISERS {
+        let mut subject = Subject::new(denoiser);
+        for _ in 0..2 {
+            let clean = subject.frame(&nothing, true, |_, _| Light([0.0; 3]));
+            assert!(clean.iter().all(|texel| Light::of(*texel, 0) == Light([0.0; 3])), "{denoiser:?}");
+        }
+    }
+}
+
+#[test]
+fn surfaces_of_a_texel_each_stay_finite() {
+    // No texel is like its neighbour, and most are alone in their class; light is what half floats hold at most, or nothing.
+    let guides: Vec<_> = (0..TEXELS)
+        .map(|texel| GuideTexel {
+            depth: if noise(texel, 2) < 0.9 { 0.0 } else { 0.01 + 1e4 * noise(texel, 0).powi(8) },
+            normal: (noise(texel, 1) * 65536.0) as u32 * 0x1_0001,
+            bits: (1 + texel as u32 % 3) << 18 | 15 << 20,
+        })
+        .collect();
+    for denoiser in DENOISERS {
+        let mut subject = Subject::new(denoiser);
+        for frame in 0..3 {
+            let light = |texel, frame| Light([if noise(texel, frame) < 0.5 { 0.0 } else { 65504.0 }; 3]);
+            let clean = subject.frame(&guides, true, light);
+            for (texel, channel) in clean.iter().flat_map(|texel| [0, 1, 2].map(|channel| (texel, channel))) {
+                let found = Light::of(*texel, channel).0;
+                let is_light = found.iter().all(|value| value.is_finite() && *value >= 0.0);
+                assert!(is_light, "{denoiser:?}, frame {frame}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn fits_follow_light_that_grows_across_a_wall() {
+    let mut subject = Subject::new(Denoiser::Bmfr);
+    // To the second order in what a fit knows.
+    let mean = |texel: usize| {
+        let [x, y] = [texel as u32 % SIZE[0], texel as u32 / SIZE[0]].map(|place| place as f32 / 37.0);
+        0.25 + x * x + 0.5 * y
+    };
+    let light = |texel, frame| Light([2.0 * noise(texel, frame) * mean(texel); 3]);
+    let clean = subject.frame(&wall(), true, light);
+    let squares = clean
+        .iter()
+        .enumerate()
+        .map(|(texel, found)| (Light::of(*found, 1).0[0] / mean(texel) - 1.0).powi(2));
+    let error = (squares.sum::<f32>() / TEXELS as f32).sqrt();
+    // A frame alone is 0.58 off.
+    assert!(error < 0.15, "{error}");
 }

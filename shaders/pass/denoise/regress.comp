@@ -27,7 +27,7 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 // Texels that are summed over at a time, as many as the least shared memory has room for.
 #define TILE 128u
 
-// What features pay for their size, in texels of each that is summed over, and in texels.
+// What features pay for their size: as a share of the frames that are summed over, and at least.
 const float RIDGE = 1e-4;
 const float LEAST_RIDGE = 0.1;
 

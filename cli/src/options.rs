@@ -235,6 +235,8 @@ pub enum Denoiser {
     Svgf,
     /// The same, with histories that are as long as light has not changed
     Asvgf,
+    /// Blockwise multi-order feature regression
+    Bmfr,
 }
 
 impl Denoiser {
@@ -244,6 +246,7 @@ impl Denoiser {
             Denoiser::None => render::Denoiser::None,
             Denoiser::Svgf => render::Denoiser::Svgf,
             Denoiser::Asvgf => render::Denoiser::Asvgf,
+            Denoiser::Bmfr => render::Denoiser::Bmfr,
         }
     }
 }

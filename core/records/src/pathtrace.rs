@@ -201,6 +201,8 @@ shared_struct! {
         pub gradients: u64,
         /// [`LuminanceTexel`]s: of this frame's light once it is traced, and of the frame's before until then.
         pub luminances: u64,
+        /// [`FitRecord`]s, three for each block of texels; 0 for denoisers without.
+        pub fits: u64,
         /// Four half floats a pixel: what is shown before edges are smoothed, linear.
         pub composed: u64,
         /// [`ExposureSum`]s, one a workgroup.
@@ -385,6 +387,28 @@ shared_struct! {
     pub struct GradientTexel {
         /// Six half floats: the change of luminance of direct, indirect and specular light, and the greater of both luminances.
         pub halves: [u32; 3],
+    }
+}
+
+shared_struct! {
+    /// What a feature of surfaces brings to light, linear RGB, and to the second band of indirect light.
+    pub struct FeatureFit {
+        pub direct: [f32; 3],
+        pub indirect: [f32; 3],
+        pub specular: [f32; 3],
+        pub towards: [f32; 3],
+    }
+}
+
+shared_struct! {
+    /// Light of a block of texels as a function of what surfaces are (see fits.glsl).
+    pub struct FitRecord {
+        /// The middle of the block's normals, the middle of its positions, and by what these are multiplied then.
+        pub normal: [f32; 3],
+        pub position: [f32; 3],
+        pub scale: [f32; 3],
+        /// A constant, normal, position, and its square.
+        pub features: [FeatureFit; 10],
     }
 }
 

@@ -29,6 +29,18 @@ uvec2 pixel_of_light(ViewRecord view, uvec2 texel) {
     return min(uvec2((vec2(texel) + 0.5) * view.light_step), view_size(view) - 1u);
 }
 
+// The texel of light that is traced for a pixel, along one side; the pixel's own number of texels if there is none.
+uint texel_along(uint pixel, float step_size, uint texels, uint pixels) {
+    uint near = uint((float(pixel) + 0.5) / step_size);
+    // Rounding may choose the one before or after.
+    for (uint texel = max(near, 1u) - 1u; texel <= near + 1u && texel < texels; ++texel) {
+        if (min(uint((float(texel) + 0.5) * step_size), pixels - 1u) == pixel) {
+            return texel;
+        }
+    }
+    return texels;
+}
+
 // Surfaces of one class have light of the same meaning.
 uint guide_class(uint kind) {
     return kind == SURFACE_LIT ? 1u : kind == SURFACE_BAKED_MOVER ? 2u : 3u;

@@ -80,7 +80,7 @@ struct LightNode { // 64 bytes
 
 #ifndef STRUCT_ViewRecord
 #define STRUCT_ViewRecord
-struct ViewRecord { // 560 bytes
+struct ViewRecord { // 568 bytes
     uint64_t frame;
     uint64_t draws;
     uint64_t members;
@@ -103,6 +103,7 @@ struct ViewRecord { // 560 bytes
     uint64_t strata;
     uint64_t gradients;
     uint64_t luminances;
+    uint64_t fits;
     uint64_t composed;
     uint64_t sums;
     uint64_t movers;
@@ -218,6 +219,26 @@ struct StratumTexel { // 12 bytes
 #define STRUCT_GradientTexel
 struct GradientTexel { // 12 bytes
     uint halves[3];
+};
+#endif
+
+#ifndef STRUCT_FeatureFit
+#define STRUCT_FeatureFit
+struct FeatureFit { // 48 bytes
+    vec3 direct;
+    vec3 indirect;
+    vec3 specular;
+    vec3 towards;
+};
+#endif
+
+#ifndef STRUCT_FitRecord
+#define STRUCT_FitRecord
+struct FitRecord { // 516 bytes
+    vec3 normal;
+    vec3 position;
+    vec3 scale;
+    FeatureFit features[10];
 };
 #endif
 

@@ -19,22 +19,35 @@ float edge_offset(uint edge) {
     return float(int(edge & 127u) - 64) / 63.0;
 }
 
+// Pixels that a triangle must reach from an edge for its colour to be that of the edge's whole side.
+#define LEAST_REACH 2.0
+
 // The nearest edge within a pixel of the middle. Each of three edges is where a column's product with (x, y, 1) of normalised device
-// coordinates is 0; `products` are the middle's, `viewport` is its size in pixels.
-uint nearest_edge(vec2 viewport, mat3 lines, vec3 products) {
+// coordinates is 0; `products` are the middle's, `viewport` is its size in pixels, `clip` has x, y and w of the corners. Where two edges
+// are near, or the triangle is hardly larger than a pixel, none can be trusted.
+uint nearest_edge(vec2 viewport, mat3 lines, vec3 products, vec3 clip[3]) {
     float nearest = 1.0;
+    float second = 1.0;
     uint edge = NO_EDGE;
+    float determinant = dot(clip[0], lines[0]);
     for (uint i = 0u; i < 3u; ++i) {
         // What the next pixel to the right and the next one below add.
         vec2 gradient = vec2(lines[i].x, -lines[i].y) * 2.0 / viewport;
         bool is_down = abs(gradient.y) > abs(gradient.x);
-        float offset = -products[i] / (is_down ? gradient.y : gradient.x);
-        if (abs(offset) < nearest) {
-            nearest = abs(offset);
-            edge = pack_edge(is_down, offset);
+        float along = is_down ? gradient.y : gradient.x;
+        float offset = -products[i] / along;
+        float away = abs(offset);
+        // How far the third corner is from the edge.
+        float reach = abs(determinant / (along * clip[i].z));
+        if (away < nearest) {
+            second = nearest;
+            nearest = away;
+            edge = reach >= LEAST_REACH ? pack_edge(is_down, offset) : NO_EDGE;
+        } else {
+            second = min(second, away);
         }
     }
-    return edge;
+    return second < 0.5 ? NO_EDGE : edge;
 }
 
 #endif

@@ -24,6 +24,7 @@ TEXELS(Guides, GuideTexel);
 TEXELS(Motions, MotionTexel);
 TEXELS(Strata, StratumTexel);
 TEXELS(Gradients, GradientTexel);
+TEXELS(Fits, FitRecord);
 TEXELS(Luminances, LuminanceTexel);
 TEXELS(SkyTexels, vec4);
 TEXELS(ExposureSums, ExposureSum);

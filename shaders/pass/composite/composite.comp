@@ -147,8 +147,8 @@ void main() {
         return;
     }
     SeenLight light = light_at(view, surface, pixel);
-    keep_radiance(view, pixel, radiance(surface, light, linear_from_srgb(program.rgb)));
-    vec3 shown = view.paint == PAINT_PICTURE
-        ? composited(view, surface, light, program.rgb, pixel) : painted(view, surface, light, pixel);
+    bool is_picture = view.paint == PAINT_PICTURE;
+    vec3 shown = is_picture ? composited(view, surface, light, program.rgb, pixel) : painted(view, surface, light, pixel);
+    keep_radiance(view, pixel, is_picture ? radiance(surface, light, linear_from_srgb(program.rgb)) : linear_from_srgb(shown));
     show(view, pixel, clamp(shown, 0.0, 1.0), program.a, seen_depth(view, surface.start));
 }

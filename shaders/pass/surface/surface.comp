@@ -244,7 +244,7 @@ Seen seen_surface(ViewRecord view, uvec2 pixel, uint draw_index, uint triangle) 
     seen.surface.albedo = pack_unorm11(srgb_from_linear(look.albedo));
     seen.surface.specular = pack_unorm11(srgb_from_linear(look.specular));
     seen.surface.emission = pack_shared_exponent(look.emission);
-    uint edge = nearest_edge(draw.it.viewport.zw, edges, products);
+    uint edge = nearest_edge(draw.it.viewport.zw, edges, products, clip);
     float fog = fog_left(view, draw, state, triangle, weights, away);
     seen.surface.properties = pack_properties(fog, look.roughness, draw.it.kind, draw.it.ray_mask, edge);
     float depth = max(seen_depth(view, facing.position), 1e-20);
@@ -269,8 +269,9 @@ void main() {
     if (view.guides == 0ul) {
         return;
     }
-    uvec2 texel = min(uvec2(vec2(pixel) / view.light_step), light_size(view) - 1u);
-    if (pixel_of_light(view, texel) == pixel) {
+    uvec2 texel = uvec2(texel_along(pixel.x, view.light_step.x, view.light_width, view.width),
+        texel_along(pixel.y, view.light_step.y, view.light_height, view.height));
+    if (all(lessThan(texel, light_size(view)))) {
         uint index = light_index(view, ivec2(texel));
         Guides(view.guides).entries[index] = seen.guide;
         Motions(view.motions).entries[index] = seen.motion;

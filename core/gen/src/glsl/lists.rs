@@ -56,6 +56,8 @@ pub fn pathtrace() -> Vec<StructDescription> {
         MotionTexel,
         StratumTexel,
         GradientTexel,
+        FeatureFit,
+        FitRecord,
         LuminanceTexel,
         RadianceTexel,
         TraceCounters,

@@ -416,4 +416,5 @@ fn name_buffers(
     record.strata = address(Store::Strata);
     record.gradients = plan.gradients.map_or(0, address);
     record.luminances = address(Store::Luminances);
+    record.fits = address(Store::Fits);
 }

@@ -264,7 +264,10 @@ impl Tracer {
     /// Texels of light in a window of a size.
     pub(crate) fn light_size(&self, size: [u32; 2]) -> [u32; 2] {
         let scale = match self.mode {
-            Mode::Pathtrace => self.options.light_scale.clamp(0.5, 1.0),
+            // Without a denoiser nothing knows which texels a pixel may take its light from.
+            Mode::Pathtrace if self.options.denoiser != Denoiser::None => {
+                self.options.light_scale.clamp(0.5, 1.0)
+            }
             _ => 1.0,
         };
         // Not max(): what that makes of NaN is not wanted.

@@ -5,6 +5,7 @@
 //! runs one pass over some of the [`Store`]s; the last one leaves three clean channels. So another one is a file beside `svgf`.
 
 mod asvgf;
+mod bmfr;
 mod stores;
 mod svgf;
 #[cfg(test)]
@@ -20,6 +21,9 @@ use afterglow_shaders as shaders;
 use super::pipelines::pixel_groups;
 use super::schedule::ViewNeeds;
 
+/// Texels of light along a side of a workgroup of evaluate.comp.
+const EVALUATED_EDGE: u32 = 16;
+
 /// What makes pictures of few samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Denoiser {
@@ -30,11 +34,13 @@ pub enum Denoiser {
     /// The same with histories that are as long as light has not changed (Schied, Peters and Dachsbacher, HPG 2018).
     #[default]
     Asvgf,
+    /// Blockwise multi-order feature regression (Koskela and others, ACM TOG 2019) of the same histories.
+    Bmfr,
 }
 
 impl Denoiser {
     /// All of them.
-    pub const ALL: [Denoiser; 3] = [Denoiser::None, Denoiser::Svgf, Denoiser::Asvgf];
+    pub const ALL: [Denoiser; 4] = [Denoiser::None, Denoiser::Svgf, Denoiser::Asvgf, Denoiser::Bmfr];
 
     /// As it is written in options and reports.
     pub fn name(self) -> &'static str {
@@ -42,6 +48,7 @@ impl Denoiser {
             Denoiser::None => "none",
             Denoiser::Svgf => "svgf",
             Denoiser::Asvgf => "asvgf",
+            Denoiser::Bmfr => "bmfr",
         }
     }
 
@@ -51,6 +58,7 @@ impl Denoiser {
             Denoiser::None => Plan::default(),
             Denoiser::Svgf => svgf::plan(),
             Denoiser::Asvgf => asvgf::plan(),
+            Denoiser::Bmfr => bmfr::plan(),
         }
     }
 }
@@ -94,11 +102,23 @@ pub(crate) enum Stage {
     Temporal,
     /// A step of a filter between neighbours.
     Atrous,
+    /// Light as a function of surfaces, block by block.
+    Regress,
+    /// What that is for each texel.
+    Evaluate,
 }
 
 impl Stage {
-    const ALL: [Stage; 6] =
-        [Stage::Effort, Stage::Select, Stage::Gradient, Stage::Spread, Stage::Temporal, Stage::Atrous];
+    const ALL: [Stage; 8] = [
+        Stage::Effort,
+        Stage::Select,
+        Stage::Gradient,
+        Stage::Spread,
+        Stage::Temporal,
+        Stage::Atrous,
+        Stage::Regress,
+        Stage::Evaluate,
+    ];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -108,6 +128,8 @@ impl Stage {
             Stage::Spread => "gradient filter",
             Stage::Temporal => "temporal filter",
             Stage::Atrous => "spatial filter",
+            Stage::Regress => "regression",
+            Stage::Evaluate => "fitted light",
         }
     }
 
@@ -119,6 +141,8 @@ impl Stage {
             Stage::Spread => shaders::DENOISE_SPREAD_COMP,
             Stage::Temporal => shaders::DENOISE_TEMPORAL_COMP,
             Stage::Atrous => shaders::DENOISE_ATROUS_COMP,
+            Stage::Regress => shaders::DENOISE_REGRESS_COMP,
+            Stage::Evaluate => shaders::DENOISE_EVALUATE_COMP,
         }
     }
 
@@ -129,6 +153,8 @@ impl Stage {
                 pixel_groups(size.map(|side| side.div_ceil(stores::STRATUM_EDGE)))
             }
             Stage::Effort | Stage::Temporal | Stage::Atrous => pixel_groups(size),
+            Stage::Regress => stores::blocks(size),
+            Stage::Evaluate => size.map(|side| side.div_ceil(EVALUATED_EDGE)),
         }
     }
 }

@@ -2,13 +2,18 @@
 
 use afterglow_frame_graph::{CompiledGraph, GraphBuilder, ResourceDesc, ResourceId};
 use afterglow_gpu::{Gpu, GpuError};
-use afterglow_records::{ChannelTexel, GradientTexel, GuideTexel, LuminanceTexel, MotionTexel, StratumTexel};
+use afterglow_records::{
+    ChannelTexel, FitRecord, GradientTexel, GuideTexel, LuminanceTexel, MotionTexel, StratumTexel,
+};
 
 use super::Plan;
 use crate::pathtrace::buffers::Tracked;
 
 /// Texels of light along a side of a stratum, as guide.glsl has it.
 pub(crate) const STRATUM_EDGE: u32 = 3;
+/// Texels of light between the middles of blocks, and classes of surfaces in each, as fits.glsl has them.
+const BLOCK_STEP: u32 = 16;
+const CLASSES: u64 = 3;
 
 /// One of the buffers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,10 +37,12 @@ pub(crate) enum Store {
     MoreGradients,
     /// Luminance of the light that was traced last.
     Luminances,
+    /// Light of blocks of texels as a function of surfaces.
+    Fits,
 }
 
 impl Store {
-    pub(crate) const ALL: [Store; 10] = [
+    pub(crate) const ALL: [Store; 11] = [
         Store::Guides,
         Store::GuidesBefore,
         Store::Motions,
@@ -46,6 +53,7 @@ impl Store {
         Store::Gradients,
         Store::MoreGradients,
         Store::Luminances,
+        Store::Fits,
     ];
 
     fn name(self) -> &'static str {
@@ -60,6 +68,7 @@ impl Store {
             Store::Gradients => "gradients",
             Store::MoreGradients => "filtered gradients",
             Store::Luminances => "luminances",
+            Store::Fits => "fits",
         }
     }
 
@@ -76,9 +85,16 @@ impl Store {
             Store::Strata => (strata, size_of::<StratumTexel>()),
             Store::Gradients | Store::MoreGradients => (strata, size_of::<GradientTexel>()),
             Store::Luminances => (texels([width, height]), size_of::<LuminanceTexel>()),
+            Store::Fits => (CLASSES * texels(blocks([width, height])), size_of::<FitRecord>()),
         };
         count * stride as u64
     }
+}
+
+/// Blocks along each side of so many texels of light. Each texel lies between the middles of four, which are up to a step apart from
+/// the picture's border.
+pub(crate) fn blocks(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| side.div_ceil(BLOCK_STEP) + 2)
 }
 
 /// All buffers of a window that a plan uses.

@@ -1,7 +1,7 @@
 //! Denoisers alone, on light that is made up.
 
 use afterglow_gpu::{BindlessSizes, Buffer, Commands, vk};
-use afterglow_records::{GuideTexel, LuminanceTexel, MotionTexel, StratumTexel, ViewRecord};
+use afterglow_records::{GuideTexel, LuminanceTexel, MotionTexel, StratumTexel, TraceCounters, ViewRecord};
 use bytemuck::Zeroable;
 
 use super::*;
@@ -21,6 +21,11 @@ impl Light {
     fn luminance(self) -> f32 {
         let [red, green, blue] = self.0;
         0.2126 * red + 0.7152 * green + 0.0722 * blue
+    }
+
+    /// Whether it is another but for a thousandth.
+    fn is_about(self, other: Self) -> bool {
+        self.0.iter().zip(other.0).all(|(found, wanted)| (found - wanted).abs() <= 1e-3 * wanted)
     }
 
     /// In nine bits each and a shared exponent.
@@ -71,6 +76,7 @@ struct Subject {
     plan: Plan,
     stages: StagePipelines,
     stores: Stores,
+    counters: Buffer,
     frame: u32,
 }
 
@@ -82,7 +88,9 @@ impl Subject {
         let mut stages = StagePipelines::default();
         stages.make_ready(&gpu, &table, &plan).unwrap();
         let stores = Stores::new(&gpu, &plan, SIZE).unwrap();
-        Self { gpu, table, plan, stages, stores, frame: 0 }
+        let zeros = bytemuck::bytes_of(&TraceCounters::zeroed()).to_vec();
+        let counters = gpu.upload_buffer("counters", vk::BufferUsageFlags::empty(), &zeros).unwrap();
+        Self { gpu, table, plan, stages, stores, counters, frame: 0 }
     }
 
     fn parity(&self) -> usize {
@@ -100,6 +108,7 @@ impl Subject {
         clip[3][2] = -1.0;
         let step = 2.0 / SIZE[0] as f32;
         let record = ViewRecord {
+            counters: self.counters.address(),
             guides: address(Store::Guides),
             guides_before: if has_history { address(Store::GuidesBefore) } else { 0 },
             motions: address(Store::Motions),
@@ -108,6 +117,7 @@ impl Subject {
             strata: address(Store::Strata),
             gradients: self.plan.gradients.map_or(0, address),
             luminances: address(Store::Luminances),
+            fits: address(Store::Fits),
             width: SIZE[0],
             height: SIZE[1],
             light_width: SIZE[0],
@@ -207,7 +217,7 @@ fn noise(texel: usize, frame: u32) -> f32 {
     (bits >> 40) as f32 / (1 << 24) as f32
 }
 
-const DENOISERS: [Denoiser; 2] = [Denoiser::Svgf, Denoiser::Asvgf];
+const DENOISERS: [Denoiser; 3] = [Denoiser::Svgf, Denoiser::Asvgf, Denoiser::Bmfr];
 
 #[test]
 fn constant_light_stays_as_it_is() {
@@ -227,7 +237,12 @@ fn constant_light_stays_as_it_is() {
                 for (texel, guide) in guides.iter().enumerate().filter(|(_, guide)| guide.depth > 0.0) {
                     for channel in 0..3 {
                         let found = clean.light(texel, channel);
-                        assert_eq!(found, Light(constant), "{denoiser:?}, frame {frame}, {guide:?}");
+                        let about = format!("{denoiser:?}, frame {frame}, {guide:?}");
+                        // Fits are sums of what rounding leaves a little off.
+                        match denoiser {
+                            Denoiser::Bmfr => assert!(found.is_about(Light(constant)), "{about}: {found:?}"),
+                            _ => assert_eq!(found, Light(constant), "{about}"),
+                        }
                     }
                     // No sample differs from another.
                     assert_eq!(clean.deviations[texel], 0, "{denoiser:?}, frame {frame}");
@@ -241,7 +256,7 @@ fn constant_light_stays_as_it_is() {
 fn noise_goes_and_its_mean_stays() {
     for denoiser in DENOISERS {
         let mut subject = Subject::new(denoiser);
-        let mut errors = Vec::new();
+        let (mut errors, mut means) = (Vec::new(), Vec::new());
         for frame in 0..24 {
             // Few bright samples, as paths have them; the mean is 1.
             let light = |texel, frame| Light([if noise(texel, frame) < 0.25 { 4.0 } else { 0.0 }; 3]);
@@ -253,11 +268,12 @@ fn noise_goes_and_its_mean_stays() {
             errors.push(error);
             // What is rarely bright is taken for noise where one frame alone says what it is.
             assert!((mean - 1.0).abs() < 0.25, "{denoiser:?}, frame {frame}: {mean}");
-            if frame == 23 {
-                assert!((mean - 1.0).abs() < 0.03, "{denoiser:?}: {mean}");
-            }
+            // These samples are 1.5 % too bright by chance, A-SVGF is 2.9 % so, and fits of its histories 3.4 %.
+            let most = if denoiser == Denoiser::Bmfr { 0.05 } else { 0.03 };
+            assert!(frame < 23 || (mean - 1.0).abs() < most, "{denoiser:?}: {mean}");
+            means.push(mean);
         }
-        println!("{denoiser:?}: {errors:.3?}");
+        println!("{denoiser:?}: {errors:.3?}, {means:.3?}");
         // Samples themselves are 1.73 off.
         assert!(errors[0] < 0.5 && errors[23] < 0.1, "{denoiser:?}: {errors:?}");
     }
@@ -275,9 +291,10 @@ fn light_that_changes_is_believed_at_once_by_gradients_alone() {
         }
         mean
     };
-    let [svgf, asvgf] = DENOISERS.map(after_change);
+    let [svgf, asvgf, bmfr] = DENOISERS.map(after_change);
     assert!(svgf > 0.7, "{svgf}");
     assert!((asvgf - 0.125).abs() < 0.01, "{asvgf}");
+    assert!((bmfr - 0.125).abs() < 0.01, "{bmfr}");
 }
 
 #[test]
@@ -302,4 +319,56 @@ fn edges_between_surfaces_stay() {
             }
         }
     }
+}
+
+#[test]
+fn where_nothing_is_there_is_no_light() {
+    let nothing = vec![GuideTexel { depth: 0.0, ..wall()[0] }; TEXELS];
+    for denoiser in DENOISERS {
+        let mut subject = Subject::new(denoiser);
+        for _ in 0..2 {
+            let clean = subject.frame(&nothing, true, |_, _| Light([0.0; 3]));
+            assert!(clean.lights(0).all(|light| light == 0.0), "{denoiser:?}");
+        }
+    }
+}
+
+#[test]
+fn surfaces_of_a_texel_each_stay_finite() {
+    // No texel is like its neighbour, and most are alone in their class; light is as bright as it can be, or nothing.
+    let guides: Vec<_> = (0..TEXELS)
+        .map(|texel| GuideTexel {
+            depth: if noise(texel, 2) < 0.9 { 0.0 } else { 0.01 + 1e4 * noise(texel, 0).powi(8) },
+            normal: (noise(texel, 1) * 65536.0) as u32 * 0x1_0001,
+            bits: (1 + texel as u32 % 3) << 18 | 15 << 20,
+        })
+        .collect();
+    for denoiser in DENOISERS {
+        let mut subject = Subject::new(denoiser);
+        for frame in 0..3 {
+            let light = |texel, frame| Light([if noise(texel, frame) < 0.5 { 0.0 } else { 65408.0 }; 3]);
+            let clean = subject.frame(&guides, true, light);
+            for (texel, channel) in (0..TEXELS).flat_map(|texel| [0, 1, 2].map(|channel| (texel, channel))) {
+                let found = clean.light(texel, channel).0;
+                let is_light = found.iter().all(|value| value.is_finite() && *value >= 0.0);
+                assert!(is_light, "{denoiser:?}, frame {frame}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn fits_follow_light_that_grows_across_a_wall() {
+    let mut subject = Subject::new(Denoiser::Bmfr);
+    // To the second order in what a fit knows.
+    let mean = |texel: usize| {
+        let [x, y] = [texel as u32 % SIZE[0], texel as u32 / SIZE[0]].map(|place| place as f32 / 37.0);
+        0.25 + x * x + 0.5 * y
+    };
+    let light = |texel, frame| Light([2.0 * noise(texel, frame) * mean(texel); 3]);
+    let clean = subject.frame(&wall(), true, light);
+    let squares = clean.lights(1).enumerate().map(|(texel, found)| (found / mean(texel) - 1.0).powi(2));
+    let error = (squares.sum::<f32>() / TEXELS as f32).sqrt();
+    // A frame alone is 0.58 off.
+    assert!(error < 0.15, "{error}");
 }

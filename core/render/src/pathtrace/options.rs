@@ -130,7 +130,8 @@ pub struct PathtraceOptions {
     pub denoiser: Denoiser,
     /// Frames that direct, indirect and specular light are gathered over, at most, 1 to 63.
     pub histories: [u32; 3],
-    /// Samples to spare for texels of whose light little is known, as a share of all others of a frame, from 0 to 1.
+    /// Samples to spare for texels of whose light little is known, as a share of all others of a frame, from 0 to 1. Threads that are
+    /// traced side by side wait for the one with most: a tenth more samples cost a third to two thirds more time on a graphics card.
     pub spare_samples: f32,
     /// Texels of light along a side, as a share of the picture's pixels: from 0.5 to 1.
     pub light_scale: f32,
@@ -180,7 +181,7 @@ impl Default for PathtraceOptions {
             seed: 0,
             denoiser: Denoiser::default(),
             histories: [32, 48, 32],
-            spare_samples: 0.1,
+            spare_samples: 0.0,
             light_scale: 1.0,
             smooth_edges: true,
             accumulate: true,

@@ -237,6 +237,9 @@ impl Tracer {
             self.buffers = Some(ViewBuffers::new(gpu, table, target)?);
         }
         self.plan = self.denoiser().plan();
+        if self.options.spare_samples.is_nan() || self.options.spare_samples <= 0.0 {
+            self.plan.spare_nothing();
+        }
         self.stages.make_ready(gpu, table, &self.plan)?;
         let light_size = self.light_size(target.size);
         let Some(buffers) = &mut self.buffers else { return Ok(()) };

@@ -77,6 +77,11 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
+    /// No texel has more samples than others.
+    pub(crate) fn spare_nothing(&mut self) {
+        self.before_light.retain(|step| step.stage != Stage::Effort);
+    }
+
     /// Whether a store is used at all.
     pub(crate) fn uses(&self, store: Store) -> bool {
         let steps = self.before_light.iter().chain(&self.after_light);

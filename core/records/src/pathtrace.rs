@@ -175,7 +175,7 @@ shared_struct! {
         pub light_nodes: u64,
         /// [`TraceCounters`].
         pub counters: u64,
-        /// Of each pixel the mean radiance and what its variance follows from ([`RadianceTexel`]); `reference` only.
+        /// Of each pixel the mean radiance and what its variance follows from ([`RadianceTexel`]); 0 where nobody asks for it.
         pub radiance: u64,
         /// [`ReservoirTexel`]s of this frame and of the one before; 0 where lights are not kept from frame to frame, or were not.
         pub reservoirs: u64,
@@ -421,7 +421,7 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// What a pixel of `reference` has gathered.
+    /// What a pixel of `reference` has gathered; otherwise its radiance with smooth edges, and before they are.
     pub struct RadianceTexel {
         /// Mean radiance of all samples.
         pub mean: [f32; 3],

@@ -51,7 +51,7 @@ pub struct FrameFigures {
     /// Of the whole picture.
     #[serde(flatten)]
     pub errors: Errors,
-    /// Of what shows no light itself: in pathtrace those in view have a radiance of 1 at most.
+    /// Of what shows no light itself: the edges of lamps are so bright that nothing else would count beside them.
     pub lit: PartErrors,
     /// Of what was not in view in one of the last 8 frames.
     pub uncovered: PartErrors,

@@ -3,8 +3,10 @@
 //! They are a crate of their own, without any device, because the generator of the GLSL declarations
 //! must not depend on the shaders that include what it writes.
 
+mod denoise;
 mod pathtrace;
 mod raster;
 
+pub use denoise::*;
 pub use pathtrace::*;
 pub use raster::*;

@@ -188,20 +188,20 @@ shared_struct! {
         pub surfaces: u64,
         /// [`LightTexel`]s; 0 where light goes through a denoiser.
         pub light: u64,
-        /// [`GuideTexel`]s of this frame and of the one before (0 if that has left none), and [`MotionTexel`]s.
+        /// [`GuideTexel`](crate::GuideTexel)s of this frame and of the one before (0 if that has left none), and [`MotionTexel`](crate::MotionTexel)s.
         pub guides: u64,
         pub guides_before: u64,
         pub motions: u64,
-        /// [`ChannelTexel`]s: as they were traced, as earlier frames left them, and as composition takes them.
+        /// [`ChannelTexel`](crate::ChannelTexel)s: as they were traced, as earlier frames left them, and as composition takes them.
         pub noisy: u64,
         pub history: u64,
         pub denoised: u64,
-        /// [`StratumTexel`]s, and [`GradientTexel`]s as the history is judged by; 0 for denoisers without.
+        /// [`StratumTexel`](crate::StratumTexel)s, and [`GradientTexel`](crate::GradientTexel)s as the history is judged by; 0 for denoisers without.
         pub strata: u64,
         pub gradients: u64,
-        /// [`LuminanceTexel`]s: of this frame's light once it is traced, and of the frame's before until then.
+        /// [`LuminanceTexel`](crate::LuminanceTexel)s: of this frame's light once it is traced, and of the frame's before until then.
         pub luminances: u64,
-        /// [`FitRecord`]s, three for each block of texels; 0 for denoisers without.
+        /// [`FitRecord`](crate::FitRecord)s, three for each block of texels; 0 for denoisers without.
         pub fits: u64,
         /// Four half floats a pixel: what is shown before edges are smoothed, linear.
         pub composed: u64,
@@ -330,93 +330,6 @@ shared_struct! {
         /// How the luminance of indirect light grows along each axis of the normal: the second of two bands of spherical harmonics,
         /// so that it can be mixed with that of places which face elsewhere.
         pub towards: [f32; 3],
-    }
-}
-
-shared_struct! {
-    /// The same on its way through a denoiser; the deviations of all texels lie behind all else of them (see channels.glsl).
-    pub struct ChannelTexel {
-        /// Direct, specular and indirect light, nine bits a colour and a shared exponent of five.
-        pub colors: [u32; 3],
-        /// The second band, three snorm8 of four times the luminance of the first, and how far the specular lobe's ray went, a
-        /// logarithm in a byte.
-        pub towards: u32,
-        /// Standard deviations of the luminance of direct, indirect and specular light, such logarithms.
-        pub deviations: u32,
-    }
-}
-
-shared_struct! {
-    /// What denoisers know of what a texel of light shows.
-    pub struct GuideTexel {
-        /// Distance along the view; 0 where nothing is seen.
-        pub depth: f32,
-        /// Shading normal, octahedral, two snorm16.
-        pub normal: u32,
-        /// From the lowest bit: three times six bits of frames that direct, indirect and specular light were gathered over, two
-        /// bits for kinds of surfaces that must not be mixed, four of roughness, seven of what moves, one of texels that may have more
-        /// samples (see guide.glsl).
-        pub bits: u32,
-    }
-}
-
-shared_struct! {
-    /// Where in the frame before was what a texel of light shows.
-    pub struct MotionTexel {
-        /// How far from its place now, texels to the right and down, two half floats.
-        pub offset: u32,
-        /// Its distance along the view then; 0 if it was not there.
-        pub depth: f32,
-    }
-}
-
-shared_struct! {
-    /// Of three by three texels of light the one that is traced with the numbers that it was traced with in the frame before.
-    pub struct StratumTexel {
-        /// Which one, row by row; 9 if none.
-        pub chosen: u32,
-        /// The texel where it was.
-        pub before: u32,
-        /// Luminance of direct, indirect and specular light there, as [`LuminanceTexel`] has it.
-        pub luminance: u32,
-    }
-}
-
-shared_struct! {
-    /// How much light has changed since the frame before.
-    pub struct GradientTexel {
-        /// Six half floats: the change of luminance of direct, indirect and specular light, and the greater of both luminances.
-        pub halves: [u32; 3],
-    }
-}
-
-shared_struct! {
-    /// What a feature of surfaces brings to light, linear RGB, and to the second band of indirect light.
-    pub struct FeatureFit {
-        pub direct: [f32; 3],
-        pub indirect: [f32; 3],
-        pub specular: [f32; 3],
-        pub towards: [f32; 3],
-    }
-}
-
-shared_struct! {
-    /// Light of a block of texels as a function of what surfaces are (see fits.glsl).
-    pub struct FitRecord {
-        /// The middle of the block's normals, the middle of its positions, and by what these are multiplied then.
-        pub normal: [f32; 3],
-        pub position: [f32; 3],
-        pub scale: [f32; 3],
-        /// A constant, normal, position, and its square.
-        pub features: [FeatureFit; 10],
-    }
-}
-
-shared_struct! {
-    /// Luminance of a texel's light as it was traced.
-    pub struct LuminanceTexel {
-        /// Direct, indirect, specular, nine bits each, an exponent of four, and a bit that says that older numbers were used.
-        pub word: u32,
     }
 }
 

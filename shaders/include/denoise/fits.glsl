@@ -6,13 +6,8 @@
 #include "channels.glsl"
 #include "guide.glsl"
 
-// Texels between the middles of blocks, which reach as far to each side.
-#define BLOCK_STEP 16
-// A constant, normal, position, and its square; red, green and blue of three channels, and the second band of indirect light.
-#define FEATURES 10u
+// Red, green and blue of three channels, and the second band of indirect light.
 #define NUMBERS 12u
-// Classes of surfaces, each with a fit of its own.
-#define CLASSES 3u
 
 // What a texel of light shows.
 struct Point {
@@ -36,8 +31,8 @@ ivec2 first_middle(ViewRecord view) {
 }
 
 uint fit_index(ViewRecord view, ivec2 block, uint kind) {
-    uint across = (view.light_width + uint(BLOCK_STEP) - 1u) / uint(BLOCK_STEP) + 2u;
-    return (uint(block.y) * across + uint(block.x)) * CLASSES + kind - 1u;
+    uint across = (view.light_width + BLOCK_STEP - 1u) / BLOCK_STEP + 2u;
+    return (uint(block.y) * across + uint(block.x)) * SURFACE_CLASSES + kind - 1u;
 }
 
 Point point_at(ViewRecord view, ivec2 texel) {
@@ -48,7 +43,7 @@ Point point_at(ViewRecord view, ivec2 texel) {
     point.index = light_index(view, texel);
     GuideTexel guide = Guides(view.guides).entries[point.index];
     if (guide.depth > 0.0) {
-        point.kind = (guide.bits >> 18) & 3u;
+        point.kind = class_of(guide);
         point.normal = unpack_unit_vector(guide.normal);
         point.position = seen_position(view, vec2(pixel_of_light(view, uvec2(texel))), guide.depth);
         point.lengths = vec3(max(guide_lengths(guide), uvec3(1u)));

@@ -6,8 +6,6 @@
 #include "../pathtrace/eye.glsl"
 #include "../pathtrace/surface.glsl"
 
-// Texels of light along a side of a stratum.
-#define STRATUM_EDGE 3
 // The greatest length of a history.
 #define MOST_LENGTH 63u
 #define LENGTH_BITS 0x3ffffu
@@ -66,11 +64,15 @@ float guide_roughness(GuideTexel guide) {
     return float((guide.bits >> 20) & 15u) / 15.0;
 }
 
+uint class_of(GuideTexel guide) {
+    return (guide.bits >> 18) & 3u;
+}
+
 // Whether a texel may have more samples, because little is known of its light.
 #define NEEDY_BIT (1u << 31)
 
 bool is_same_class(GuideTexel a, GuideTexel b) {
-    return ((a.bits ^ b.bits) & (3u << 18)) == 0u;
+    return class_of(a) == class_of(b);
 }
 
 bool is_same_object(GuideTexel a, GuideTexel b) {
@@ -92,6 +94,15 @@ bool shows_same(GuideTexel now, GuideTexel before, float depth_before, float slo
     float away = abs(before.depth - depth_before);
     return away < 2.0 * slope + 0.005 * depth_before
         && dot(unpack_unit_vector(now.normal), unpack_unit_vector(before.normal)) > 0.8;
+}
+
+// The texel of the frame before that is nearest to where one was; false if there is none that shows the same.
+bool texel_before(ViewRecord view, ivec2 texel, GuideTexel guide, out uint before) {
+    MotionTexel motion = Motions(view.motions).entries[light_index(view, texel)];
+    ivec2 place = ivec2(floor(vec2(texel) + unpackHalf2x16(motion.offset) + 0.5));
+    before = light_index(view, place);
+    return motion.depth > 0.0 && is_in_light(view, place)
+        && shows_same(guide, Guides(view.guides_before).entries[before], motion.depth, depth_slope(view, texel, guide));
 }
 
 #endif

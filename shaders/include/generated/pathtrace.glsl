@@ -360,6 +360,10 @@ struct SkyPush { // 40 bytes
 #define maps_roughness_in_emission(w) (((w) >> 3) & 0x1u)
 #define MAPS_NORMAL_OF_TWO_WORD 0
 #define maps_normal_of_two(w) (((w) >> 4) & 0x1u)
+#define BLOCK_STEP 16u
+#define FEATURES 10u
+#define STRATUM_EDGE 3u
+#define SURFACE_CLASSES 3u
 #define MASK_STATIC 1u
 #define MASK_MOVING 2u
 #define MASK_VIEW_MODEL 4u

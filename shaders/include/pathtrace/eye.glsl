@@ -37,6 +37,15 @@ float seen_height(ViewRecord view, float depth) {
     return looks_parallel(view) ? view.pixel_spread : view.pixel_spread * depth;
 }
 
+// Where a position was seen in the frame before, pixels from the upper left corner, in sight or not; false if it was behind the eye.
+bool place_before(ViewRecord view, vec3 position, out vec2 place) {
+    vec4 at = vec4(position, 1.0);
+    mat4 rows = view.clip_before;
+    vec4 clip = vec4(dot(rows[0], at), dot(rows[1], at), dot(rows[2], at), dot(rows[3], at));
+    place = (clip.xy / clip.w * vec2(0.5, -0.5) + 0.5) * vec2(view_size(view));
+    return clip.w > 0.0;
+}
+
 // The cone of a pixel's ray, so far from where it starts.
 RayCone seen_cone(ViewRecord view, float away) {
     return looks_parallel(view) ? RayCone(view.pixel_spread, 0.0) : travelled(camera_cone(view.pixel_spread), away);

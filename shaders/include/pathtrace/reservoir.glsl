@@ -107,11 +107,11 @@ ReservoirTexel own_choice(ViewRecord view, Path path, PathRandom random, uint di
 
 // The pixel that showed a place in the frame before; false if none did.
 bool pixel_before(ViewRecord view, vec3 position, out uvec2 pixel) {
-    vec4 at = vec4(position, 1.0);
-    vec4 clip = vec4(dot(view.clip_before[0], at), dot(view.clip_before[1], at), dot(view.clip_before[2], at), dot(view.clip_before[3], at));
-    vec2 flat_xy = clip.xy / clip.w;
-    pixel = uvec2(clamp((flat_xy * vec2(0.5, -0.5) + 0.5) * vec2(view_size(view)), vec2(0.0), vec2(view_size(view)) - 1.0));
-    return clip.w > 0.0 && all(lessThan(abs(flat_xy), vec2(1.0)));
+    vec2 place;
+    bool is_before = place_before(view, position, place);
+    vec2 size = vec2(view_size(view));
+    pixel = uvec2(clamp(place, vec2(0.0), size - 1.0));
+    return is_before && all(greaterThan(place, vec2(0.0))) && all(lessThan(place, size));
 }
 
 // Two choices for one surface, one of them made for `other`: each has the share that the balance heuristic gives it.

@@ -11,9 +11,7 @@
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #extension GL_GOOGLE_include_directive : require
 
-#include "denoise/channels.glsl"
-#include "denoise/guide.glsl"
-#include "pathtrace/random.glsl"
+#include "denoise/history.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -23,16 +21,8 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 const float PLANE_TOLERANCE = 1.5;
 // Standard deviations by which direct, indirect and specular light may differ; twice as many where one frame alone says what they are.
 const vec3 DEVIATIONS = vec3(2.0, 2.5, 2.0);
-// Frames from which on a history holds nothing filtered, and frames up to which it holds nothing else.
-const float LONG = 12.0;
-const float SHORT = 4.0;
-
 // Share of a light below which what differs is not seen: nothing is filtered there.
 const float UNSEEN = 4e-3;
-
-vec3 lengths_of(GuideTexel guide) {
-    return vec3(max(guide_lengths(guide), uvec3(1u)));
-}
 
 // The variance of what is shown: before the first step, a sample's over the history's length.
 vec3 variance_of(Lit light, GuideTexel guide) {
@@ -153,15 +143,6 @@ Middle middle_of(ViewRecord view, ivec2 texel, GuideTexel guide, Lit light, vec3
     return middle;
 }
 
-// The history keeps the deviation of samples.
-void keep(ViewRecord view, uint index, GuideTexel guide, Lit middle, Sums sums, Lit filtered) {
-    vec3 lengths = lengths_of(guide);
-    Lit kept = mixed(middle, filtered, clamp((LONG - lengths) / (LONG - SHORT), 0.0, 1.0));
-    set_deviations(kept, sqrt(sums.samples / sums.weights * lengths));
-    float random = float(hash(index ^ hash(view.frame_number + 0x51edu)) >> 8) / 16777216.0;
-    write_lit(view, view.history, index, kept, random);
-}
-
 void main() {
     ViewRecord view = ViewTable(push.view).entries[0];
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
@@ -191,7 +172,9 @@ void main() {
         sums.light = light;
     }
     if (push.step == 1u) {
-        keep(view, index, guide, light, sums, sums.light);
+        // The history keeps the deviation of samples.
+        vec3 lengths = lengths_of(guide);
+        keep_history(view, index, light, sums.light, sqrt(sums.samples / sums.weights * lengths), lengths);
     }
     set_deviations(sums.light, sqrt(sums.squares) / sums.weights);
     write_lit(view, push.target, index, sums.light, 0.5);

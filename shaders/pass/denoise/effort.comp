@@ -22,20 +22,16 @@ bool is_needy(ViewRecord view, ivec2 texel) {
     if (!is_in_light(view, texel)) {
         return false;
     }
-    uint index = light_index(view, texel);
-    GuideTexel guide = Guides(view.guides).entries[index];
-    MotionTexel motion = Motions(view.motions).entries[index];
+    GuideTexel guide = Guides(view.guides).entries[light_index(view, texel)];
     if (guide.depth == 0.0) {
         return false;
     }
-    ivec2 place = ivec2(floor(vec2(texel) + unpackHalf2x16(motion.offset) + 0.5));
-    if (!(motion.depth > 0.0) || !is_in_light(view, place)) {
+    uint before;
+    if (!texel_before(view, texel, guide, before)) {
         return true;
     }
-    GuideTexel before = Guides(view.guides_before).entries[light_index(view, place)];
-    uvec3 lengths = guide_lengths(before);
-    return !shows_same(guide, before, motion.depth, depth_slope(view, texel, guide))
-        || min(lengths.x, min(lengths.y, lengths.z)) <= SHORT;
+    uvec3 lengths = guide_lengths(Guides(view.guides_before).entries[before]);
+    return min(lengths.x, min(lengths.y, lengths.z)) <= SHORT;
 }
 
 void main() {

@@ -10,7 +10,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "denoise/fits.glsl"
-#include "pathtrace/random.glsl"
+#include "denoise/history.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
@@ -22,10 +22,6 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 
 // How much of that is noise, in variances of what was gathered.
 const float NOISE = 1.5;
-// Frames from which on a history holds nothing fitted, and frames up to which it holds nothing else.
-const float LONG = 12.0;
-const float SHORT = 4.0;
-
 // Squares of what differs, by channels, and how great noise makes them.
 shared float squares[3 * TILE_EDGE * TILE_EDGE];
 shared float noises[3 * TILE_EDGE * TILE_EDGE];
@@ -118,7 +114,5 @@ void main() {
     }
     Lit clean = mixed(fitted(view, texel, point, light), light, kept_share(point.kind));
     write_lit(view, push.target, point.index, clean, 0.5);
-    Lit kept = mixed(light, clean, clamp((LONG - point.lengths) / (LONG - SHORT), 0.0, 1.0));
-    float random = float(hash(point.index ^ hash(view.frame_number + 0x51edu)) >> 8) / 16777216.0;
-    write_lit(view, view.history, point.index, kept, random);
+    keep_history(view, point.index, light, clean, deviations(light), point.lengths);
 }

@@ -20,8 +20,8 @@ layout(push_constant, scalar) uniform Push { ViewPush push; };
 
 #define THREADS 256u
 // Texels along a side of a block, and of each thread's.
-#define BLOCK_EDGE (2 * BLOCK_STEP)
-#define BLOCK_TEXELS uint(BLOCK_EDGE * BLOCK_EDGE)
+#define BLOCK_EDGE (2u * BLOCK_STEP)
+#define BLOCK_TEXELS (BLOCK_EDGE * BLOCK_EDGE)
 #define THREAD_TEXELS (BLOCK_TEXELS / THREADS)
 #define COLUMNS (FEATURES + NUMBERS)
 // Texels that are summed over at a time, as many as the least shared memory has room for.
@@ -51,8 +51,8 @@ float from_ordered(uint bits) {
 }
 
 Point block_point(ViewRecord view, uint number) {
-    ivec2 corner = first_middle(view) + (ivec2(gl_WorkGroupID.xy) - 1) * BLOCK_STEP;
-    return point_at(view, corner + ivec2(number % uint(BLOCK_EDGE), number / uint(BLOCK_EDGE)));
+    ivec2 corner = first_middle(view) + (ivec2(gl_WorkGroupID.xy) - 1) * int(BLOCK_STEP);
+    return point_at(view, corner + ivec2(number % BLOCK_EDGE, number / BLOCK_EDGE));
 }
 
 // Bounds of a class of surfaces in the block, and the first of its texels.
@@ -195,7 +195,7 @@ void main() {
     find_classes(view);
     barrier();
     uint there = classes;
-    [[dont_unroll]] for (uint kind = 1u; kind <= CLASSES; ++kind) {
+    [[dont_unroll]] for (uint kind = 1u; kind <= SURFACE_CLASSES; ++kind) {
         if ((there & (1u << kind)) == 0u) {
             continue;
         }

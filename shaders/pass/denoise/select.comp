@@ -15,15 +15,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(push_constant, scalar) uniform Push { ViewPush push; };
 
-// The texel of the frame before that is nearest to where one was; false if there is none that shows the same.
-bool texel_before(ViewRecord view, ivec2 texel, GuideTexel guide, out uint before) {
-    MotionTexel motion = Motions(view.motions).entries[light_index(view, texel)];
-    ivec2 place = ivec2(floor(vec2(texel) + unpackHalf2x16(motion.offset) + 0.5));
-    before = light_index(view, place);
-    return motion.depth > 0.0 && is_in_light(view, place)
-        && shows_same(guide, Guides(view.guides_before).entries[before], motion.depth, depth_slope(view, texel, guide));
-}
-
 void main() {
     ViewRecord view = ViewTable(push.view).entries[0];
     uvec2 stratum = gl_GlobalInvocationID.xy;

@@ -17,7 +17,7 @@ const float KERNEL[3] = float[3](0.25, 0.125, 0.0625);
 
 // The guide of a stratum's middle.
 GuideTexel stratum_guide(ViewRecord view, ivec2 stratum) {
-    ivec2 texel = min(stratum * STRATUM_EDGE + 1, ivec2(light_size(view)) - 1);
+    ivec2 texel = min(stratum * int(STRATUM_EDGE) + 1, ivec2(light_size(view)) - 1);
     return Guides(view.guides).entries[light_index(view, texel)];
 }
 

@@ -9,7 +9,7 @@
 
 #include "denoise/channels.glsl"
 #include "denoise/gradients.glsl"
-#include "pathtrace/random.glsl"
+#include "denoise/history.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -60,12 +60,11 @@ Past past_at(ViewRecord view, vec2 place, GuideTexel guide, float depth, float s
 // Where a mirrored thing was seen in the frame before: its image lies behind the surface, as far as it is before it.
 bool mirrored_place(ViewRecord view, ivec2 texel, GuideTexel guide, float reflected, out vec2 place) {
     vec3 surface = seen_position(view, vec2(pixel_of_light(view, uvec2(texel))), guide.depth);
-    vec4 image = vec4(surface - to_eye(view, surface) * reflected, 1.0);
-    mat4 clip_rows = view.clip_before;
-    vec4 clip = vec4(dot(clip_rows[0], image), dot(clip_rows[1], image), dot(clip_rows[2], image), dot(clip_rows[3], image));
-    vec2 pixel = (clip.xy / clip.w * vec2(0.5, -0.5) + 0.5) * vec2(view_size(view));
+    vec3 image = surface - to_eye(view, surface) * reflected;
+    vec2 pixel;
+    bool is_before = place_before(view, image, pixel);
     place = pixel / view.light_step - 0.5;
-    return clip.w > 0.0;
+    return is_before;
 }
 
 // Variance of luminance among the noisy texels around one that show the same surface.
@@ -148,7 +147,7 @@ void main() {
         vec3 around = sqrt(spread_around(view, texel, guide, slope));
         set_deviations(light, mix(own, max(own, around), vec3(lessThan(lengths, vec3(FEW)))));
     }
-    float random = float(hash(index ^ hash(view.frame_number)) >> 8) / 16777216.0;
+    float random = rounding_number(view, index, 0u);
     write_lit(view, push.target, index, light, random);
     Guides(view.guides).entries[index].bits = with_lengths(guide.bits, uvec3(lengths + random));
 }

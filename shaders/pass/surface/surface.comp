@@ -186,14 +186,12 @@ MotionTexel motion(ViewRecord view, DrawReference draw, uint triangle, vec3 weig
         }
         position += weights[i] * (vec4(corner, 1.0) * rows);
     }
-    vec4 at = vec4(position, 1.0);
-    mat4 clip_rows = view.clip_before;
-    vec4 clip = vec4(dot(clip_rows[0], at), dot(clip_rows[1], at), dot(clip_rows[2], at), dot(clip_rows[3], at));
-    vec2 before = (clip.xy / clip.w * vec2(0.5, -0.5) + 0.5) * vec2(view_size(view));
+    vec2 before;
+    bool is_before = place_before(view, position, before);
     vec2 offset = (before - vec2(pixel) - 0.5) / view.light_step;
-    float depth = dot(view.depth_before, at);
+    float depth = dot(view.depth_before, vec4(position, 1.0));
     // Half floats reach so far; what was farther away was out of sight.
-    bool was_there = view.guides_before != 0ul && rows[0].xyz != vec3(0.0) && clip.w > 0.0 && depth > 0.0
+    bool was_there = view.guides_before != 0ul && rows[0].xyz != vec3(0.0) && is_before && depth > 0.0
         && all(lessThan(abs(offset), vec2(16384.0)));
     return was_there ? MotionTexel(packHalf2x16(offset), depth) : MotionTexel(0u, 0.0);
 }

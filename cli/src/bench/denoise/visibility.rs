@@ -27,7 +27,7 @@ pub struct Pixels {
     pub left_by_objects: Vec<bool>,
     /// A spherical light is seen, or next to it. Pathtrace does not show those.
     pub of_lights: Vec<bool>,
-    /// The same of surfaces that shine: in pathtrace those in view have a radiance of 1 at most.
+    /// The same of surfaces that shine.
     pub of_emitters: Vec<bool>,
 }
 

@@ -15,7 +15,7 @@ pub(crate) use stores::{Store, StoreResources, Stores};
 
 use afterglow_frame_graph::{Access, GraphBuilder, PassKind, ResourceId};
 use afterglow_gpu::{BindlessTable, ComputeDesc, ComputePipeline, Gpu, GpuError};
-use afterglow_records::ViewPush;
+use afterglow_records::{STRATUM_EDGE, ViewPush};
 use afterglow_shaders as shaders;
 
 use super::pipelines::pixel_groups;
@@ -155,7 +155,7 @@ impl Stage {
     pub(crate) fn groups(self, size: [u32; 2]) -> [u32; 2] {
         match self {
             Stage::Select | Stage::Gradient | Stage::Spread => {
-                pixel_groups(size.map(|side| side.div_ceil(stores::STRATUM_EDGE)))
+                pixel_groups(size.map(|side| side.div_ceil(STRATUM_EDGE)))
             }
             Stage::Effort | Stage::Temporal | Stage::Atrous => pixel_groups(size),
             Stage::Regress => stores::blocks(size),

@@ -3,17 +3,12 @@
 use afterglow_frame_graph::{CompiledGraph, GraphBuilder, ResourceDesc, ResourceId};
 use afterglow_gpu::{Gpu, GpuError};
 use afterglow_records::{
-    ChannelTexel, FitRecord, GradientTexel, GuideTexel, LuminanceTexel, MotionTexel, StratumTexel,
+    BLOCK_STEP, ChannelTexel, FitRecord, GradientTexel, GuideTexel, LuminanceTexel, MotionTexel,
+    STRATUM_EDGE, SURFACE_CLASSES, StratumTexel,
 };
 
 use super::Plan;
 use crate::pathtrace::buffers::Tracked;
-
-/// Texels of light along a side of a stratum, as guide.glsl has it.
-pub(crate) const STRATUM_EDGE: u32 = 3;
-/// Texels of light between the middles of blocks, and classes of surfaces in each, as fits.glsl has them.
-const BLOCK_STEP: u32 = 16;
-const CLASSES: u64 = 3;
 
 /// One of the buffers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,7 +80,9 @@ impl Store {
             Store::Strata => (strata, size_of::<StratumTexel>()),
             Store::Gradients | Store::MoreGradients => (strata, size_of::<GradientTexel>()),
             Store::Luminances => (texels([width, height]), size_of::<LuminanceTexel>()),
-            Store::Fits => (CLASSES * texels(blocks([width, height])), size_of::<FitRecord>()),
+            Store::Fits => {
+                (u64::from(SURFACE_CLASSES) * texels(blocks([width, height])), size_of::<FitRecord>())
+            }
         };
         count * stride as u64
     }

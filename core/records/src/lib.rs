@@ -4,9 +4,11 @@
 //! must not depend on the shaders that include what it writes.
 
 mod denoise;
+mod kinds;
 mod pathtrace;
 mod raster;
 
 pub use denoise::*;
+pub use kinds::*;
 pub use pathtrace::*;
 pub use raster::*;

@@ -1,6 +1,6 @@
 //! What the passes of a view write, as large as the window, and how the last frame left it.
 
-use afterglow_frame_graph::ResourceState;
+use afterglow_frame_graph::{Format, ImageDesc as GraphImage, ResourceState};
 use afterglow_gpu::{
     BindlessKind, BindlessTable, Buffer, BufferDesc, BufferKind, Gpu, GpuError, Image, ImageDesc, vk,
 };
@@ -16,6 +16,8 @@ use crate::target::{COLOR_FORMAT, Target};
 pub(crate) const VISIBILITY_FORMAT: vk::Format = vk::Format::R32G32_UINT;
 /// Of a pixel between composition and the smoothing of edges: four half floats.
 const COMPOSED_BYTES: u64 = 8;
+/// Visibility and albedo, as the frame graph has them.
+pub(crate) const VIEW_FORMATS: [Format; 2] = [Format::Rg32Uint, Format::Rgba8Unorm];
 /// Pixels along a side of a workgroup that sums for exposure.
 const SUM_EDGE: u32 = 16;
 
@@ -34,6 +36,8 @@ pub(crate) struct TrackedImage {
 /// Everything of one window size.
 pub(crate) struct ViewBuffers {
     pub(crate) size: [u32; 2],
+    /// Of visibility and albedo, and of the window's own images.
+    image_bytes: u64,
     pub(crate) visibility: TrackedImage,
     /// Colours without light.
     pub(crate) albedo: TrackedImage,
@@ -76,6 +80,7 @@ impl ViewBuffers {
         let buffer = |name, bytes| Tracked::new(gpu, name, bytes);
         Ok(Self {
             size,
+            image_bytes: image_bytes(target),
             visibility_index: drawn_index(table, &visibility)?,
             albedo_index: drawn_index(table, &albedo)?,
             albedo: TrackedImage { image: albedo, state: ResourceState::UNDEFINED },
@@ -180,12 +185,10 @@ impl ViewBuffers {
         let of = |tracked: &Tracked| tracked.buffer.size();
         let optional = [&self.surfaces_before, &self.composed, &self.radiance];
         let reservoirs = self.reservoirs.iter().flatten();
-        // Visibility, albedo; colour, depth and stencil of the window.
-        let images = pixels(self.size) * (8 + 4 + 4 + 8);
         of(&self.surfaces)
             + optional.into_iter().flatten().chain(reservoirs).chain(&self.light).map(of).sum::<u64>()
             + self.stores.iter().map(Stores::bytes).sum::<u64>()
-            + images
+            + self.image_bytes
     }
 
     /// Makes sure that there are sums of so many draws.
@@ -223,6 +226,13 @@ pub(crate) fn sum_groups(size: [u32; 2]) -> [u32; 2] {
 pub(crate) fn sum_count(size: [u32; 2]) -> u32 {
     let [across, down] = sum_groups(size);
     across * down
+}
+
+/// Bytes of all images of a window.
+fn image_bytes(target: &Target) -> u64 {
+    let own = VIEW_FORMATS.map(|format| GraphImage::flat(target.size.into(), format));
+    let images = own.into_iter().chain([target.color_desc(), target.depth_desc()]);
+    images.filter_map(|image| image.bytes()).sum()
 }
 
 fn pixels([width, height]: [u32; 2]) -> u64 {

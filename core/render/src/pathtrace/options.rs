@@ -164,6 +164,14 @@ pub struct PathtraceOptions {
     pub move_draw: Option<(Displaced, Vec3)>,
 }
 
+impl PathtraceOptions {
+    /// Samples to spare in a frame of so many texels of light. What is no number spares nothing.
+    pub(crate) fn spare_samples(&self, [width, height]: [u32; 2]) -> u32 {
+        let all = f64::from(self.spp.max(1)) * f64::from(width) * f64::from(height);
+        (all * f64::from(self.spare_samples).clamp(0.0, 1.0)) as u32
+    }
+}
+
 impl Default for PathtraceOptions {
     fn default() -> Self {
         Self {

@@ -16,7 +16,7 @@ use super::estimator::Estimator;
 use super::gather::{Surfaces, TraceInput, gather};
 use super::lights::{LightList, highlight};
 use super::lists::{FramePlace, List};
-use super::options::{Mode, PathtraceOptions, SkyChoice};
+use super::options::{Mode, SkyChoice};
 use super::past::Left;
 use super::rays::PixelRays;
 use super::schedule::{ExposureUse, ViewNeeds};
@@ -262,7 +262,7 @@ impl Tracer {
                 light_width: light_size[0],
                 light_height: light_size[1],
                 light_step: [0, 1].map(|side| size[side] as f32 / light_size[side] as f32),
-                spare_samples: spare_samples(options, light_size),
+                spare_samples: options.spare_samples(light_size),
                 most_spare_samples: MOST_SPARE,
                 longest: options.histories.map(|frames| frames.clamp(1, 63) as f32),
                 far_count: surfaces.lights.far_count as u32,
@@ -371,13 +371,6 @@ impl Tracer {
         }
         Ok(())
     }
-}
-
-/// Samples of a frame for texels of whose light little is known.
-fn spare_samples(options: &PathtraceOptions, [width, height]: [u32; 2]) -> u32 {
-    let all = f64::from(options.spp.max(1)) * f64::from(width) * f64::from(height);
-    // What is no number spares nothing.
-    (all * f64::from(options.spare_samples).clamp(0.0, 1.0)) as u32
 }
 
 /// Tells a record where the window's buffers are.

@@ -4,7 +4,7 @@ use afterglow_frame_graph::{Format, GraphBuilder, ImageDesc, ResourceDesc, Resou
 use afterglow_records::SKY_EDGE;
 
 use super::backend::Backend;
-use super::buffers::{Tracked, ViewBuffers};
+use super::buffers::{Tracked, VIEW_FORMATS, ViewBuffers};
 use super::denoise::{Plan, Store, StoreResources};
 use super::prepare::PreparedTrace;
 use super::sky::{SIDES, SkyMap};
@@ -136,9 +136,9 @@ impl ViewResources {
         sky: Option<&SkyMap>,
     ) -> Self {
         let visibility = &buffers.visibility;
-        let visibility_desc = ImageDesc::flat(buffers.size.into(), Format::Rg32Uint);
+        let [visibility_desc, albedo_desc] =
+            VIEW_FORMATS.map(|format| ImageDesc::flat(buffers.size.into(), format));
         let visibility = graph.import("visibility", visibility_desc, visibility.state);
-        let albedo_desc = ImageDesc::flat(buffers.size.into(), Format::Rgba8Unorm);
         let albedo = graph.import("albedo", albedo_desc, buffers.albedo.state);
         let world = graph.import("world", ResourceDesc::Buffer { bytes: 1 }, world);
         let lists = graph.import("lists", ResourceDesc::Buffer { bytes: 1 }, lists);

@@ -236,12 +236,12 @@ impl Tracer {
             self.has_exposure = false;
             self.buffers = Some(ViewBuffers::new(gpu, table, target)?);
         }
+        let light_size = self.light_size(target.size);
         self.plan = self.denoiser().plan();
-        if self.options.spare_samples.is_nan() || self.options.spare_samples <= 0.0 {
+        if self.options.spare_samples(light_size) == 0 {
             self.plan.spare_nothing();
         }
         self.stages.make_ready(gpu, table, &self.plan)?;
-        let light_size = self.light_size(target.size);
         let Some(buffers) = &mut self.buffers else { return Ok(()) };
         if !buffers.reserve_views(gpu, views, &self.plan, light_size)? {
             self.past.forget();

@@ -213,42 +213,17 @@ pub struct LightArguments {
     #[arg(long, value_name = "RADIANCE", env = "AFTERGLOW_LIMIT", hide_short_help = true, value_parser = limit)]
     pub limit: Option<f32>,
     /// What makes a picture of few samples; `asvgf` unless it is said (pathtrace)
-    #[arg(long, value_enum, value_name = "WHAT", env = "AFTERGLOW_DENOISER")]
-    pub denoiser: Option<Denoiser>,
+    #[arg(long, value_name = "WHAT", env = "AFTERGLOW_DENOISER", value_parser = denoiser())]
+    pub denoiser: Option<render::Denoiser>,
     /// Texels of light along a side for each pixel, 0.5 to 1; 1 unless it or a preset is said (pathtrace)
     #[arg(long, value_name = "SHARE", env = "AFTERGLOW_LIGHT_SCALE", value_parser = light_scale)]
     pub light_scale: Option<f32>,
-    /// Leave the edges of triangles as they are (pathtrace)
-    #[arg(long)]
-    pub no_antialiasing: bool,
+    /// Whether the edges of triangles are smoothed; yes unless it is said (pathtrace)
+    #[arg(long, value_name = "BOOL", env = "AFTERGLOW_ANTIALIASING", value_parser = clap::builder::BoolishValueParser::new())]
+    pub antialiasing: Option<bool>,
     /// Show a buffer in place of the picture
     #[arg(long, value_enum, value_name = "WHAT", alias = "paint", env = "AFTERGLOW_VIEW")]
     pub view: Option<View>,
-}
-
-/// What makes a picture of few samples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Denoiser {
-    /// Nothing: noise stays, and frames that do not change add up
-    None,
-    /// Spatiotemporal variance-guided filtering
-    Svgf,
-    /// The same, with histories that are as long as light has not changed
-    Asvgf,
-    /// Blockwise multi-order feature regression
-    Bmfr,
-}
-
-impl Denoiser {
-    /// As the renderer has it.
-    pub fn method(self) -> render::Denoiser {
-        match self {
-            Denoiser::None => render::Denoiser::None,
-            Denoiser::Svgf => render::Denoiser::Svgf,
-            Denoiser::Asvgf => render::Denoiser::Asvgf,
-            Denoiser::Bmfr => render::Denoiser::Bmfr,
-        }
-    }
 }
 
 /// What a path-traced picture can show instead of itself.
@@ -316,9 +291,9 @@ impl LightArguments {
             limit: self.limit,
             lights: self.lights.map(LightChoice::of_renderer),
             reuse: self.reuse.then_some(true),
-            denoiser: self.denoiser.map(Denoiser::method),
+            denoiser: self.denoiser,
             light_scale: self.light_scale,
-            antialiasing: self.no_antialiasing.then_some(false),
+            antialiasing: self.antialiasing,
         };
         quality.apply(options);
         options.paint = self.view.map_or(Paint::Picture, View::paint);
@@ -336,9 +311,9 @@ impl LightArguments {
             ("AFTERGLOW_ASKED", number(self.asked)),
             ("AFTERGLOW_REUSE", self.reuse.then(|| "1".to_owned())),
             ("AFTERGLOW_LIMIT", self.limit.map(|limit| limit.to_string())),
-            ("AFTERGLOW_DENOISER", self.denoiser.map(|denoiser| denoiser.method().name().to_owned())),
+            ("AFTERGLOW_DENOISER", self.denoiser.map(|denoiser| denoiser.name().to_owned())),
             ("AFTERGLOW_LIGHT_SCALE", self.light_scale.map(|scale| scale.to_string())),
-            ("AFTERGLOW_ANTIALIASING", self.no_antialiasing.then(|| "0".to_owned())),
+            ("AFTERGLOW_ANTIALIASING", self.antialiasing.map(|is| u8::from(is).to_string())),
             ("AFTERGLOW_VIEW", self.view.map(|view| view.paint().name().to_owned())),
         ];
         said.into_iter().filter_map(|(name, value)| Some((name, value?))).collect()
@@ -348,6 +323,12 @@ impl LightArguments {
 /// Presets by name.
 fn preset() -> impl TypedValueParser<Value = Preset> {
     PossibleValuesParser::new(Preset::NAMES).try_map(|name| name.parse::<Preset>())
+}
+
+/// Denoisers by name.
+pub fn denoiser() -> impl TypedValueParser<Value = render::Denoiser> {
+    let names = render::Denoiser::ALL.map(render::Denoiser::name);
+    PossibleValuesParser::new(names).try_map(|name| name.parse::<render::Denoiser>())
 }
 
 fn light_scale(text: &str) -> Result<f32, String> {

@@ -228,7 +228,8 @@ mod tests {
             "sky",
             "--denoiser",
             "svgf",
-            "--no-antialiasing",
+            "--antialiasing",
+            "no",
         ];
         let values = said(&options);
         for (name, value) in [

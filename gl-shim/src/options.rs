@@ -13,9 +13,7 @@ use afterglow_scene::{Profile, ProfileChoice, ProgramCache};
 use afterglow_settings::{ConfigFile, Layer, Layers, Quality, flag};
 use tracing::level_filters::LevelFilter;
 
-use words::{
-    backend, chord, denoiser, light_scale, lights, mode, number, radiance, replacing, sky, view, within,
-};
+use words::{backend, chord, light_scale, lights, mode, number, radiance, replacing, sky, view, within};
 
 /// Samples a pixel and frame unless asked otherwise: a program that is played cannot wait for more.
 const LIVE_SAMPLES: u32 = 1;
@@ -150,7 +148,7 @@ fn quality(layers: &Layers<'_>) -> Quality {
         limit: layers.get("limit", radiance),
         lights: layers.get("lights", lights),
         reuse: layers.get("reuse", flag),
-        denoiser: layers.get("denoiser", denoiser),
+        denoiser: layers.get("denoiser", |name| name.parse().ok()),
         light_scale: layers.get("light_scale", light_scale),
         antialiasing: layers.get("antialiasing", flag),
     }

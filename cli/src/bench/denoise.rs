@@ -4,7 +4,6 @@
 //! pictures: of a file, or made by reference mode and kept. Errors, flicker and lag are those of
 //! [`figures`]; what was uncovered a short time ago, and has no history, is judged by itself as well ([`visibility`]).
 
-mod choice;
 mod figures;
 mod judge;
 mod oidn;
@@ -18,13 +17,13 @@ mod visibility;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use afterglow_render::Denoiser;
 use clap::Args;
 
 use crate::failure::{self, Failure};
 use crate::options::{Backend, DeviceArguments, Frames};
 use crate::output;
 use crate::render::progress::Progress;
-use choice::Denoiser;
 use judge::{Figures, Judge};
 use pictures::Album;
 use player::{Pictures, Player};
@@ -51,7 +50,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
     /// Which denoiser, several times for several; the default is all
-    #[arg(long, value_name = "NAME", value_parser = choice::parse)]
+    #[arg(long, value_name = "NAME", value_parser = crate::options::denoiser())]
     denoiser: Vec<Denoiser>,
     /// Also Intel's Open Image Denoise on the same noise, each picture by itself, if Python has `pyoidn`
     #[arg(long)]

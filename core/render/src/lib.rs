@@ -47,7 +47,7 @@ pub use drawables::Carried;
 pub use error::RenderError;
 pub use pathtrace::{
     Backend, Denoiser, Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, Radiance, SkyChoice,
-    Target, TraceCounts,
+    Target, TraceCounts, UnknownDenoiser,
 };
 pub use renderer::{RenderOptions, Renderer};
 pub use report::{FrameReport, PassReport, SceneReport};

@@ -1,7 +1,7 @@
 //! Values of options as words.
 
 use afterglow_engine::Chord;
-use afterglow_render::{Backend, Denoiser, LightChoice, Mode, Paint, SkyChoice};
+use afterglow_render::{Backend, LightChoice, Mode, Paint, SkyChoice};
 use afterglow_scene::Replacing;
 
 pub(super) fn mode(value: &str) -> Option<Mode> {
@@ -62,10 +62,6 @@ pub(super) fn lights(value: &str) -> Option<LightChoice> {
     }
 }
 
-pub(super) fn denoiser(value: &str) -> Option<Denoiser> {
-    Denoiser::ALL.into_iter().find(|denoiser| denoiser.name() == value)
-}
-
 /// A share from a half to all.
 pub(super) fn light_scale(value: &str) -> Option<f32> {
     value.parse().ok().filter(|scale| (0.5..=1.0).contains(scale))
@@ -96,7 +92,6 @@ mod tests {
         assert_eq!((view("picture"), view("Sky")), (Some(Paint::Picture), None));
         assert_eq!((chord("none"), chord("Ctrl")), (Some(None), None));
         assert!(chord("Ctrl+F1").flatten().is_some());
-        assert_eq!((denoiser("svgf"), denoiser("")), (Some(Denoiser::Svgf), None));
         assert_eq!([light_scale("0.5"), light_scale("0.4"), light_scale("nan")], [Some(0.5), None, None]);
         assert_eq!(lights("uniform"), Some(LightChoice::Uniform));
     }

@@ -11,10 +11,10 @@ use afterglow_scene::{Relighting, Scene};
 use afterglow_scene_file::Stage;
 
 use super::Arguments;
-use super::choice::Denoiser;
 use super::references::Reference;
 use crate::failure::Failure;
 use crate::render::pace::Pace;
+use afterglow_render::Denoiser;
 
 /// From a frame's seed to the next one's, where they are to differ: the golden ratio, as hashes have it.
 const SEED_STEP: u32 = 0x9e37_79b9;

@@ -48,7 +48,7 @@ mod unseen;
 mod world;
 
 pub use backend::Backend;
-pub use denoise::Denoiser;
+pub use denoise::{Denoiser, UnknownDenoiser};
 pub(crate) use gather::TraceInput;
 pub use options::{Displaced, ImageOptions, LightChoice, Mode, PathtraceOptions, SkyChoice, Target};
 #[cfg(feature = "reload")]

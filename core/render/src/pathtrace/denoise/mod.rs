@@ -13,6 +13,8 @@ mod tests;
 
 pub(crate) use stores::{Store, StoreResources, Stores};
 
+use std::str::FromStr;
+
 use afterglow_frame_graph::{Access, GraphBuilder, PassKind, ResourceId};
 use afterglow_gpu::{BindlessTable, ComputeDesc, ComputePipeline, Gpu, GpuError};
 use afterglow_records::{STRATUM_EDGE, ViewPush};
@@ -60,6 +62,19 @@ impl Denoiser {
             Denoiser::Asvgf => asvgf::plan(),
             Denoiser::Bmfr => bmfr::plan(),
         }
+    }
+}
+
+/// A word that is no denoiser.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("denoisers are none, svgf, asvgf and bmfr")]
+pub struct UnknownDenoiser;
+
+impl FromStr for Denoiser {
+    type Err = UnknownDenoiser;
+
+    fn from_str(text: &str) -> Result<Denoiser, UnknownDenoiser> {
+        Denoiser::ALL.into_iter().find(|denoiser| denoiser.name() == text).ok_or(UnknownDenoiser)
     }
 }
 
@@ -257,6 +272,15 @@ impl StagePipelines {
 #[cfg(test)]
 mod plans {
     use super::*;
+
+    #[test]
+    fn names_are_read_back() {
+        for denoiser in Denoiser::ALL {
+            assert_eq!(denoiser.name().parse(), Ok(denoiser));
+            assert!(UnknownDenoiser.to_string().contains(denoiser.name()));
+        }
+        assert_eq!("blur".parse::<Denoiser>(), Err(UnknownDenoiser));
+    }
 
     #[test]
     fn every_denoiser_writes_before_it_reads() {
